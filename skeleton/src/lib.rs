@@ -1,0 +1,4 @@
+//! A small physically based renderer for teaching light transport.
+
+pub mod math;
+pub mod scene;

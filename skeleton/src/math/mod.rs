@@ -1,0 +1,5 @@
+//! Numbers, colours and directions.
+
+mod rgb;
+
+pub use rgb::Rgb;

@@ -1,0 +1,7 @@
+//! The scene.
+
+mod description;
+mod diagnostic;
+
+pub use description::*;
+pub use diagnostic::Diagnostic;
