@@ -1,5 +1,12 @@
-//! Numbers, colours and directions.
+//! Numbers, colours, directions, and the maps from random numbers to them.
 
+mod direction;
+mod frame;
 mod rgb;
+mod trigonometry;
+pub mod warp;
 
+pub use direction::{direction, reflect, refract};
+pub use frame::Frame;
+pub use glam::{Vec2, Vec3};
 pub use rgb::Rgb;

@@ -1,0 +1,59 @@
+//! One term of a BSDF.
+
+use super::{BsdfSample, Glass, LocalGeometry, Phong, diffuse, mirror};
+use crate::math::{Rgb, Vec3};
+use crate::sampler::Sampler;
+
+/// One of the models that a BSDF is put together from. `eval` and `pdf` expect a `wi` above both horizons.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Lobe {
+    Diffuse { albedo: Rgb },
+    Phong(Phong),
+    Mirror { reflectance: Rgb },
+    Glass(Glass),
+}
+
+impl Lobe {
+    #[inline]
+    pub(super) fn is_delta(&self) -> bool {
+        matches!(self, Self::Mirror { .. } | Self::Glass(_))
+    }
+
+    #[inline]
+    pub(super) fn eval(&self, geometry: &LocalGeometry, wi: Vec3) -> Rgb {
+        match self {
+            Self::Diffuse { albedo } => diffuse::eval(*albedo),
+            Self::Phong(phong) => phong.eval(geometry, wi),
+            Self::Mirror { .. } | Self::Glass(_) => Rgb::BLACK,
+        }
+    }
+
+    #[inline]
+    pub(super) fn pdf(&self, geometry: &LocalGeometry, wi: Vec3) -> f32 {
+        match self {
+            Self::Diffuse { .. } => diffuse::pdf(geometry, wi),
+            Self::Phong(phong) => phong.pdf(geometry, wi),
+            Self::Mirror { .. } | Self::Glass(_) => 0.0,
+        }
+    }
+
+    /// A direction of a lobe that is not a delta distribution; `None` for one that is.
+    #[inline]
+    pub(super) fn sample_direction(&self, geometry: &LocalGeometry, sampler: &mut Sampler) -> Option<Vec3> {
+        match self {
+            Self::Diffuse { .. } => Some(diffuse::sample(geometry, sampler)),
+            Self::Phong(phong) => Some(phong.sample(geometry, sampler)),
+            Self::Mirror { .. } | Self::Glass(_) => None,
+        }
+    }
+
+    /// The direction of a delta lobe; `None` for any other.
+    #[inline]
+    pub(super) fn sample_delta(&self, geometry: &LocalGeometry, sampler: &mut Sampler) -> Option<BsdfSample> {
+        match self {
+            Self::Diffuse { .. } | Self::Phong(_) => None,
+            Self::Mirror { reflectance } => mirror::sample(geometry, *reflectance),
+            Self::Glass(glass) => glass.sample(geometry, sampler),
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! The camera.
+
+use crate::math::{Vec3, direction};
+use crate::ray::Ray;
+use crate::scene::CameraDescription;
+
+/// A pinhole camera for an image of a given size. Each pixel averages over its own square (box filter).
+#[derive(Clone, Copy, Debug)]
+pub struct Camera {
+    eye: Vec3,
+    /// The direction to the upper left corner of the image, on the plane at distance 1.
+    corner: Vec3,
+    /// One pixel to the right on that plane.
+    right: Vec3,
+    /// One pixel down on that plane.
+    down: Vec3,
+}
+
+impl Camera {
+    /// The camera for images of `width × height` square pixels. The field of view spans the width.
+    pub fn new(description: &CameraDescription, width: u32, height: u32) -> Self {
+        let CameraDescription { eye, center, up, fov } = *description;
+        let forward = direction(eye, center).0;
+        let right = forward.cross(up).normalize();
+        let down = forward.cross(right);
+        let half_width = (0.5 * fov).to_radians().tan();
+        let pixel = 2.0 * half_width / width as f32;
+        let corner = forward - half_width * right - 0.5 * pixel * height as f32 * down;
+        Self { eye, corner, right: pixel * right, down: pixel * down }
+    }
+
+    /// The ray through pixel (x, y), counted from the upper left, at the place (u, v) of its square, both in [0, 1).
+    #[inline]
+    pub fn ray(&self, x: u32, y: u32, (u, v): (f32, f32)) -> Ray {
+        let on_plane = self.corner + (x as f32 + u) * self.right + (y as f32 + v) * self.down;
+        Ray::new(self.eye, on_plane.normalize())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_field_of_view_spans_the_width_and_pixels_are_square() {
+        let description = CameraDescription {
+            eye: Vec3::new(1.0, 2.0, 3.0),
+            center: Vec3::new(1.0, 2.0, 0.0),
+            up: Vec3::Y,
+            fov: 90.0,
+        };
+        let camera = Camera::new(&description, 200, 100);
+        let middle = camera.ray(100, 50, (0.0, 0.0));
+        assert_eq!(middle.origin, description.eye);
+        assert!((middle.direction - Vec3::NEG_Z).length() < 1e-6);
+        let left = camera.ray(0, 50, (0.0, 0.0)).direction;
+        assert!((left - Vec3::new(-1.0, 0.0, -1.0).normalize()).length() < 1e-6, "45° to the left: {left}");
+        let top = camera.ray(100, 0, (0.0, 0.0)).direction;
+        assert!((top - Vec3::new(0.0, 0.5, -1.0).normalize()).length() < 1e-6, "half as high as wide: {top}");
+    }
+}

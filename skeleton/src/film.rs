@@ -1,0 +1,201 @@
+//! Where samples are gathered.
+
+use crate::math::Rgb;
+
+/// For each pixel the number, the sum and the sum of squares of its samples, in double precision.
+///
+/// Samples that are not finite cannot be summed. They count as black in the sums, and are reported one by one in
+/// [`anomalies`](Self::anomalies), so that nobody can overlook them. Negative samples are summed as they are, and
+/// are reported too.
+#[derive(Clone, Debug)]
+pub struct Film {
+    width: u32,
+    height: u32,
+    pixels: Vec<Pixel>,
+    anomalies: Anomalies,
+}
+
+/// The samples of one pixel, so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pixel {
+    /// How many.
+    pub count: u64,
+    /// Their sum, per channel.
+    pub sum: [f64; 3],
+    /// The sum of their squares, per channel.
+    pub sum_of_squares: [f64; 3],
+}
+
+/// Samples that no correct estimator gives.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Anomalies {
+    /// How many samples were NaN or infinite in a channel.
+    pub non_finite: u64,
+    /// How many were finite but negative in a channel.
+    pub negative: u64,
+    /// The first of them, in the order of pixels and samples.
+    pub first: Vec<Anomaly>,
+}
+
+/// One sample that no correct estimator gives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Anomaly {
+    /// Pixel column, from the left.
+    pub x: u32,
+    /// Pixel row, from the top.
+    pub y: u32,
+    /// The number of the sample, as [`Sampler::new`](crate::sampler::Sampler::new) takes it to replay its path.
+    pub sample: u64,
+    /// Its value.
+    pub value: Rgb,
+}
+
+impl Film {
+    /// A black film.
+    pub fn new(width: u32, height: u32) -> Self {
+        let pixels = vec![Pixel::default(); width as usize * height as usize];
+        Self { width, height, pixels, anomalies: Anomalies::default() }
+    }
+
+    /// Width in pixels.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Height in pixels.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// The pixels, row by row from the top.
+    pub fn pixels(&self) -> &[Pixel] {
+        &self.pixels
+    }
+
+    /// The rows, to be filled by several threads at once.
+    pub(crate) fn rows_mut(&mut self) -> impl rayon::iter::IndexedParallelIterator<Item = &mut [Pixel]> {
+        use rayon::slice::ParallelSliceMut;
+        self.pixels.par_chunks_mut(self.width as usize)
+    }
+
+    /// The number of samples of the pixel that has fewest: all have the same, unless rendering was interrupted.
+    pub fn samples(&self) -> u64 {
+        self.pixels.iter().map(|pixel| pixel.count).min().unwrap_or(0)
+    }
+
+    /// Samples that were not finite, or negative.
+    pub fn anomalies(&self) -> &Anomalies {
+        &self.anomalies
+    }
+
+    pub(crate) fn anomalies_mut(&mut self) -> &mut Anomalies {
+        &mut self.anomalies
+    }
+}
+
+impl Pixel {
+    /// Adds a sample. False if it is not finite: then it is counted as black.
+    #[inline]
+    pub(crate) fn add(&mut self, sample: Rgb) -> bool {
+        self.count += 1;
+        if !sample.is_finite() {
+            return false;
+        }
+        for (channel, value) in sample.to_array().into_iter().enumerate() {
+            let value = f64::from(value);
+            self.sum[channel] += value;
+            self.sum_of_squares[channel] += value * value;
+        }
+        true
+    }
+
+    /// The mean of the samples: the estimate of the pixel's radiance. Black without samples.
+    pub fn mean(&self) -> Rgb {
+        let count = self.count.max(1) as f64;
+        Rgb::from(self.sum.map(|sum| (sum / count) as f32))
+    }
+
+    /// The unbiased variance of one sample, per channel; 0 for fewer than two samples.
+    pub fn sample_variance(&self) -> [f64; 3] {
+        if self.count < 2 {
+            return [0.0; 3];
+        }
+        let count = self.count as f64;
+        std::array::from_fn(|channel| {
+            let mean = self.sum[channel] / count;
+            ((self.sum_of_squares[channel] / count - mean * mean) * count / (count - 1.0)).max(0.0)
+        })
+    }
+
+    /// The variance of the mean: that of one sample, divided by their number.
+    pub fn variance_of_mean(&self) -> Rgb {
+        let count = self.count.max(1) as f64;
+        Rgb::from(self.sample_variance().map(|variance| (variance / count) as f32))
+    }
+}
+
+impl Anomalies {
+    /// How many are kept in [`first`](Self::first).
+    pub const KEPT: usize = 16;
+
+    /// True if there are none.
+    pub fn is_empty(&self) -> bool {
+        self.non_finite == 0 && self.negative == 0
+    }
+
+    /// Looks at a sample and remembers it if it is one of those.
+    #[inline]
+    pub(crate) fn inspect(&mut self, x: u32, y: u32, sample: u64, value: Rgb) {
+        if value.is_finite() && value.min_channel() >= 0.0 {
+            return;
+        }
+        if value.is_finite() {
+            self.negative += 1;
+        } else {
+            self.non_finite += 1;
+        }
+        if self.first.len() < Self::KEPT {
+            self.first.push(Anomaly { x, y, sample, value });
+        }
+    }
+
+    /// Adds what other pixels had to report.
+    pub(crate) fn merge(&mut self, other: Self) {
+        self.non_finite += other.non_finite;
+        self.negative += other.negative;
+        self.first.extend(other.first);
+        self.first.sort_by_key(|anomaly| (anomaly.sample, anomaly.y, anomaly.x));
+        self.first.truncate(Self::KEPT);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mean_and_variance_are_those_of_the_samples() {
+        let mut pixel = Pixel::default();
+        for value in [1.0, 2.0, 3.0, 6.0] {
+            assert!(pixel.add(Rgb::new(value, 10.0 * value, 0.5)));
+        }
+        assert_eq!(pixel.mean(), Rgb::new(3.0, 30.0, 0.5));
+        let [r, g, b] = pixel.sample_variance();
+        assert!((r - 14.0 / 3.0).abs() < 1e-12 && (g - 1400.0 / 3.0).abs() < 1e-9 && b == 0.0);
+        assert!((f64::from(pixel.variance_of_mean().r) - 14.0 / 12.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn samples_that_are_not_finite_are_counted_and_named() {
+        let mut pixel = Pixel::default();
+        let mut anomalies = Anomalies::default();
+        for (sample, value) in [1.0, f32::NAN, -2.0, f32::INFINITY].into_iter().enumerate() {
+            anomalies.inspect(3, 4, sample as u64, Rgb::gray(value));
+            pixel.add(Rgb::gray(value));
+        }
+        assert_eq!((anomalies.non_finite, anomalies.negative), (2, 1));
+        assert_eq!(anomalies.first.iter().map(|anomaly| anomaly.sample).collect::<Vec<_>>(), [1, 2, 3]);
+        assert_eq!(pixel.count, 4, "they stay in the number of samples");
+        assert_eq!(pixel.mean(), Rgb::gray(-0.25));
+    }
+}

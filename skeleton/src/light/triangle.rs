@@ -1,0 +1,51 @@
+//! A triangle that emits the same radiance from every point of its front, in every direction.
+
+use std::f32::consts::PI;
+
+use super::{DirectSample, Emission};
+use crate::accel::point_on;
+use crate::math::{Rgb, Vec3, direction, warp};
+use crate::sampler::Sampler;
+
+#[derive(Clone, Debug)]
+pub(crate) struct TriangleLight {
+    vertices: [Vec3; 3],
+    /// Unit normal of the front.
+    normal: Vec3,
+    area: f32,
+    radiance: Rgb,
+}
+
+impl TriangleLight {
+    pub(crate) fn new(vertices: [Vec3; 3], radiance: Rgb) -> Self {
+        let [a, b, c] = vertices.map(Vec3::as_dvec3);
+        let cross = (b - a).cross(c - a);
+        let length = cross.length();
+        Self { vertices, normal: (cross / length).as_vec3(), area: (0.5 * length) as f32, radiance }
+    }
+
+    #[inline]
+    pub(super) fn sample_direct(&self, from: Vec3, sampler: &mut Sampler) -> Option<DirectSample> {
+        let point = point_on(&self.vertices, warp::triangle(sampler.draw_2d()));
+        let (w, _) = direction(point, from);
+        let cos = self.normal.dot(w);
+        // A cosine of zero, or a point at no distance: nothing arrives.
+        (cos > 0.0).then(|| DirectSample {
+            point,
+            intensity: self.radiance,
+            pdf_area: 1.0 / self.area,
+            cos: cos.min(1.0),
+        })
+    }
+
+    #[inline]
+    pub(super) fn emission(&self, wo: Vec3) -> Emission {
+        // A hit in the light's very plane may round to a cosine of zero; the smallest keeps quotients finite.
+        let cos = self.normal.dot(wo).clamp(f32::MIN_POSITIVE, 1.0);
+        Emission { radiance: self.radiance, pdf_area: 1.0 / self.area, cos }
+    }
+
+    pub(super) fn power(&self) -> f32 {
+        PI * self.area * self.radiance.luminance()
+    }
+}

@@ -1,0 +1,167 @@
+//! From a description to a scene.
+
+use super::closed::encloses;
+use super::{
+    Attributes, Features, LightDescription, Material, Mesh, MeshTriangle, NONE, Scene, SceneDescription,
+    Specular, Surface, Triangle,
+};
+use crate::accel::Accel;
+use crate::light::{Light, PointLight, Shape, SpotLight, TriangleLight};
+use crate::math::{Rgb, Vec3};
+
+impl Scene {
+    /// Builds everything that rays need: the hierarchy, the lights, the features.
+    ///
+    /// Emissive triangles of meshes become lights after those that the description lists, in the order of the
+    /// meshes. Triangles without an area are left out, with a warning.
+    pub fn new(description: &SceneDescription) -> Self {
+        let mut builder = Builder::default();
+        for light in &description.lights {
+            builder.add_light(light);
+        }
+        builder.surfaces.extend(description.materials.iter().map(|material| Surface {
+            diffuse: material.diffuse,
+            diffuse_map: material.diffuse_map,
+            specular: material.specular,
+        }));
+        for mesh in &description.meshes {
+            for triangle in &mesh.triangles {
+                builder.add_triangle(mesh, triangle, &description.materials[triangle.material as usize]);
+            }
+        }
+        builder.finish(description)
+    }
+}
+
+#[derive(Default)]
+struct Builder {
+    triangles: Vec<Triangle>,
+    attributes: Vec<Attributes>,
+    surfaces: Vec<Surface>,
+    lights: Vec<Light>,
+    /// Materials follow the one surface that all triangle lights share.
+    first_material: u32,
+    degenerate: usize,
+}
+
+impl Builder {
+    fn add_light(&mut self, light: &LightDescription) {
+        match *light {
+            LightDescription::Point { position, power } => {
+                self.push_light(Shape::Point(PointLight::new(position, power)));
+            }
+            LightDescription::Spot { position, direction, inner, outer, power } => {
+                self.push_light(Shape::Spot(SpotLight::new(position, direction, inner, outer, power)));
+            }
+            LightDescription::Triangle { vertices, radiance } => {
+                let Some(normal) = front_normal(vertices) else {
+                    self.degenerate += 1;
+                    return;
+                };
+                if self.first_material == 0 {
+                    self.surfaces.push(Surface {
+                        diffuse: Rgb::BLACK,
+                        diffuse_map: None,
+                        specular: Specular::None,
+                    });
+                    self.first_material = 1;
+                }
+                let light = self.push_light(Shape::Triangle(TriangleLight::new(vertices, radiance)));
+                self.triangles.push(Triangle { vertices, normal, surface: 0, light, attributes: NONE });
+            }
+        }
+    }
+
+    fn add_triangle(&mut self, mesh: &Mesh, triangle: &MeshTriangle, material: &Material) {
+        let vertices = triangle.positions.map(|index| mesh.positions[index as usize]);
+        let Some(normal) = front_normal(vertices) else {
+            self.degenerate += 1;
+            return;
+        };
+        let light = if material.emission.is_black() {
+            NONE
+        } else {
+            self.push_light(Shape::Triangle(TriangleLight::new(vertices, material.emission)))
+        };
+        let normals = triangle.normals.map(|indices| indices.map(|index| mesh.normals[index as usize]));
+        // Texture coordinates are kept only where there is a texture to look up.
+        let uvs = triangle.uvs.filter(|_| material.diffuse_map.is_some());
+        let uvs = uvs.map(|indices| indices.map(|index| mesh.uvs[index as usize]));
+        let attributes = if normals.is_some() || uvs.is_some() {
+            self.attributes.push(Attributes { normals, uvs });
+            self.attributes.len() as u32 - 1
+        } else {
+            NONE
+        };
+        let surface = self.first_material + triangle.material;
+        self.triangles.push(Triangle { vertices, normal, surface, light, attributes });
+    }
+
+    fn push_light(&mut self, shape: Shape) -> u32 {
+        let index = self.lights.len();
+        self.lights.push(Light::new(index, shape));
+        index as u32
+    }
+
+    fn finish(self, description: &SceneDescription) -> Scene {
+        let corners: Vec<[Vec3; 3]> = self.triangles.iter().map(|triangle| triangle.vertices).collect();
+        let accel = Accel::build(&corners);
+        let features = self.features(description, &accel);
+        let mut warnings = Vec::new();
+        if self.degenerate > 0 {
+            warnings.push(format!("{} triangles without an area were left out", self.degenerate));
+        }
+        let duplicates = accel.stats().duplicates;
+        if duplicates > 0 {
+            warnings.push(format!(
+                "{duplicates} triangles stand exactly where another one does; the first counts"
+            ));
+        }
+        Scene {
+            accel,
+            triangles: self.triangles,
+            attributes: self.attributes,
+            surfaces: self.surfaces,
+            textures: description.textures.clone(),
+            lights: self.lights,
+            camera: description.camera,
+            defaults: description.defaults,
+            features,
+            warnings,
+        }
+    }
+
+    fn features(&self, description: &SceneDescription, accel: &Accel) -> Features {
+        let count = |has: &dyn Fn(&Triangle, &Surface) -> bool| {
+            self.triangles
+                .iter()
+                .filter(|triangle| has(triangle, &self.surfaces[triangle.surface as usize]))
+                .count()
+        };
+        let area_lights = self.lights.iter().filter(|light| light.has_area()).count();
+        Features {
+            triangles: self.triangles.len(),
+            area_lights,
+            point_lights: self.lights.len() - area_lights,
+            delta_surfaces: count(&|_, surface| {
+                matches!(surface.specular, Specular::Mirror { .. } | Specular::Glass { .. })
+            }),
+            glossy_surfaces: count(&|_, surface| matches!(surface.specular, Specular::Phong { .. })),
+            lit_surfaces: count(&|_, surface| {
+                !surface.diffuse.is_black() || matches!(surface.specular, Specular::Phong { .. })
+            }),
+            textured_surfaces: count(&|_, surface| surface.diffuse_map.is_some()),
+            smooth_surfaces: count(&|triangle, _| {
+                self.attributes.get(triangle.attributes as usize).is_some_and(|it| it.normals.is_some())
+            }),
+            closed: encloses(&self.triangles, description.camera.eye),
+            hierarchy: accel.stats().nodes > 0,
+        }
+    }
+}
+
+/// The unit normal of the side from which the vertices run counter-clockwise; `None` without an area.
+fn front_normal([a, b, c]: [Vec3; 3]) -> Option<Vec3> {
+    let (a, b, c) = (a.as_dvec3(), b.as_dvec3(), c.as_dvec3());
+    (b - a).cross(c - a).try_normalize().map(|normal| normal.as_vec3())
+}

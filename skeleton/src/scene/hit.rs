@@ -1,0 +1,137 @@
+//! The point where a ray meets a surface.
+
+use super::{NONE, Scene, Specular, Triangle};
+use crate::accel::{TriangleHit, offset_origin, point_on};
+use crate::bsdf::{Bsdf, Glass, Lobe, LocalGeometry, Phong};
+use crate::light::Light;
+use crate::math::{Rgb, Vec2, Vec3};
+use crate::ray::Ray;
+
+/// A point on a surface, seen from where a ray came from. All vectors are in world space.
+#[derive(Clone, Copy)]
+pub struct Hit<'a> {
+    /// The point.
+    pub point: Vec3,
+    /// The shading normal: interpolated if the mesh has normals. A unit vector on the viewer's side.
+    pub normal: Vec3,
+    /// The normal of the triangle. A unit vector on the viewer's side.
+    pub geometric_normal: Vec3,
+    /// The direction back to where the ray came from: a unit vector, away from the surface.
+    pub wo: Vec3,
+    scene: &'a Scene,
+    triangle: &'a Triangle,
+    barycentrics: [f32; 2],
+    /// True if the ray came from the front.
+    front: bool,
+}
+
+impl<'a> Hit<'a> {
+    #[inline]
+    pub(super) fn new(scene: &'a Scene, ray: &Ray, hit: TriangleHit) -> Self {
+        let triangle = &scene.triangles[hit.primitive as usize];
+        let wo = -ray.direction;
+        let front = triangle.normal.dot(wo) >= 0.0;
+        let geometric_normal = if front { triangle.normal } else { -triangle.normal };
+        let mut this = Self {
+            point: point_on(&triangle.vertices, hit.barycentrics),
+            normal: geometric_normal,
+            geometric_normal,
+            wo,
+            scene,
+            triangle,
+            barycentrics: hit.barycentrics,
+            front,
+        };
+        if triangle.attributes != NONE {
+            this.interpolate_normal();
+        }
+        this
+    }
+
+    /// Replaces the shading normal by the interpolated one, unless the viewer would be below its horizon.
+    fn interpolate_normal(&mut self) {
+        let Some([a, b, c]) = self.scene.attributes[self.triangle.attributes as usize].normals else {
+            return;
+        };
+        let [v, w] = self.barycentrics;
+        let normal = ((1.0 - v - w) * a + v * b + w * c).normalize_or_zero();
+        let normal = if normal.dot(self.geometric_normal) < 0.0 { -normal } else { normal };
+        if normal.dot(self.wo) > 0.0 {
+            self.normal = normal;
+        }
+    }
+
+    /// The light that was hit, or `None` if this surface emits nothing to where the ray came from: lights emit from
+    /// their front only.
+    #[inline]
+    pub fn light(&self) -> Option<&'a Light> {
+        (self.front && self.triangle.light != NONE).then(|| &self.scene.lights[self.triangle.light as usize])
+    }
+
+    /// How the surface scatters light at this point.
+    #[inline]
+    pub fn bsdf(&self) -> Bsdf {
+        let surface = &self.scene.surfaces[self.triangle.surface as usize];
+        let geometry =
+            LocalGeometry { normal: self.normal, geometric_normal: self.geometric_normal, wo: self.wo };
+        let specular = match surface.specular {
+            Specular::None => None,
+            Specular::Phong { reflectance, exponent } => {
+                Some((Lobe::Phong(Phong { reflectance, exponent }), reflectance))
+            }
+            Specular::Mirror { reflectance } => Some((Lobe::Mirror { reflectance }, reflectance)),
+            Specular::Glass { index, reflectance, transmittance } => {
+                let ratio = if self.front { 1.0 / index } else { index };
+                Some((Lobe::Glass(Glass { ratio, reflectance, transmittance }), transmittance))
+            }
+        };
+        let albedo = self.diffuse_albedo();
+        let diffuse = Lobe::Diffuse { albedo };
+        match specular {
+            None => Bsdf::single(geometry, diffuse),
+            Some((lobe, _)) if albedo.is_black() => Bsdf::single(geometry, lobe),
+            Some((lobe, reflectance)) => {
+                // As often as it reflects light, by and large.
+                let (kd, ks) = (albedo.luminance(), reflectance.luminance());
+                Bsdf::mixture(geometry, diffuse, lobe, (kd / (kd + ks)).clamp(0.05, 0.95))
+            }
+        }
+    }
+
+    /// The diffuse reflectance at this point, with the texture applied.
+    #[inline]
+    pub(crate) fn diffuse_albedo(&self) -> Rgb {
+        let surface = &self.scene.surfaces[self.triangle.surface as usize];
+        match surface.diffuse_map {
+            None => surface.diffuse,
+            Some(map) => surface.diffuse * self.scene.textures[map as usize].lookup(self.uv()),
+        }
+    }
+
+    /// Texture coordinates, (0, 0) where the mesh has none.
+    fn uv(&self) -> Vec2 {
+        let attributes = self.scene.attributes.get(self.triangle.attributes as usize);
+        let Some([a, b, c]) = attributes.and_then(|attributes| attributes.uvs) else { return Vec2::ZERO };
+        let [v, w] = self.barycentrics;
+        (1.0 - v - w) * a + v * b + w * c
+    }
+
+    /// The absolute cosine between the shading normal and a direction.
+    #[inline]
+    pub fn cos(&self, wi: Vec3) -> f32 {
+        self.normal.dot(wi).abs()
+    }
+
+    /// The ray that leaves this point into the unit direction `wi`, to either side of the surface. It does not hit
+    /// the surface that it leaves.
+    #[inline]
+    pub fn spawn(&self, wi: Vec3) -> Ray {
+        Ray::new(self.leave_towards(wi), wi)
+    }
+
+    /// The point just off the surface from which something that lies in the given direction is looked at.
+    #[inline]
+    pub(super) fn leave_towards(&self, direction: Vec3) -> Vec3 {
+        offset_origin(self.point, self.geometric_normal, direction)
+    }
+}
