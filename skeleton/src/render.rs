@@ -1,5 +1,6 @@
 //! From an integrator to an image.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
@@ -28,15 +29,15 @@ pub fn sample_pixel(
     integrator.radiance(scene, ray, &mut sampler)
 }
 
-/// Adds `samples` samples to each pixel of the film, using all threads of the current rayon pool.
+/// Adds the samples with the given numbers to each pixel of the film, using all threads of the current rayon pool.
 ///
-/// The result depends on nothing but the arguments: the samples of a pixel are numbered on from those it has, and
-/// are added in that order. When `stop` becomes true, rows that are not finished stay where they are.
+/// The result depends on nothing but the arguments: each pixel's samples are added in the order of their numbers,
+/// whichever thread does it. When `stop` becomes true, the pixels that were not begun are left as they are.
 pub fn render(
     integrator: &dyn Integrator,
     scene: &Scene,
     film: &mut Film,
-    samples: u64,
+    samples: Range<u64>,
     seed: u64,
     stop: &AtomicBool,
 ) {
@@ -48,7 +49,7 @@ pub fn render(
                 break;
             }
             let (x, y) = (x as u32, y as u32);
-            for sample in pixel.count..pixel.count + samples {
+            for sample in samples.clone() {
                 let value = sample_pixel(integrator, scene, &camera, seed, (x, y), sample);
                 anomalies.inspect(x, y, sample, value);
                 pixel.add(value);

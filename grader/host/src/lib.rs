@@ -1,1 +1,13 @@
-//! x
+//! Runs one hand-in and answers the grader's jobs.
+//!
+//! The hand-in is linked into a small fixed program (`program/main.rs`) whose `main` calls [`serve`]. The process
+//! reads [`Request`](protocol::Request)s from its standard input and writes a [`Response`](protocol::Response) to
+//! each to what was its standard output; whatever the hand-in prints goes to standard error. It has no say in
+//! anything else: it gives numbers, and the grader judges them.
+
+pub mod protocol;
+mod render;
+mod serve;
+mod stdio;
+
+pub use serve::serve;

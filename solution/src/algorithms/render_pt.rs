@@ -54,7 +54,8 @@ impl Integrator for PathTracer {
                     (Technique::Nee, Some(_)) => 0.0,
                     (Technique::Mis, Some((from, p_brdf))) => {
                         let (_, distance) = direction(from, hit.point);
-                        let p_ne = pick_probability(scene) * emission.pdf_area * distance * distance / emission.cos;
+                        let p_ne =
+                            pick_probability(scene) * emission.pdf_area * distance * distance / emission.cos;
                         balance(p_brdf, p_ne)
                     }
                 };

@@ -1,0 +1,152 @@
+//! What the grader and the process that runs a hand-in say to each other.
+//!
+//! Each message is its length in bytes (`u32`, little endian) and that many bytes of postcard.
+
+use std::borrow::Cow;
+use std::io::{self, Read, Write};
+
+use arty::integrator::Settings;
+use arty::scene::SceneDescription;
+use serde::Deserialize;
+use serde::{Serialize, de::DeserializeOwned};
+
+/// The longest message that is read, in bytes. Scenes are the longest: a million triangles take about 60 MB.
+pub const MAX_MESSAGE: u32 = 512 << 20;
+
+/// A job for the host.
+#[derive(Debug, Serialize, Deserialize)]
+pub enum Request<'a> {
+    /// Build this scene; later jobs refer to it by its place in the order of building.
+    Scene(Cow<'a, SceneDescription>),
+    /// Render batches of a scene.
+    Render(Cow<'a, RenderJob>),
+}
+
+/// Independent renderings of one scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RenderJob {
+    /// Which scene, counted from 0 in the order in which they were sent.
+    pub scene: u32,
+    /// What the hand-in's path tracer is made with.
+    pub settings: Settings,
+    /// Image width in pixels.
+    pub width: u32,
+    /// Image height in pixels.
+    pub height: u32,
+    /// One seed per batch.
+    pub seeds: Vec<u64>,
+    /// The number of the first sample of each pixel in each batch.
+    pub first_sample: u64,
+    /// Samples of each pixel in each batch.
+    pub samples: u64,
+}
+
+/// An answer of the host: exactly one to each request.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Response {
+    /// The scene is built.
+    SceneReady,
+    /// The batches are rendered.
+    Rendered(Rendered),
+    /// The hand-in panicked.
+    Panicked {
+        /// What it said.
+        message: String,
+    },
+    /// The request made no sense: a mistake of the grader.
+    Rejected {
+        /// Why.
+        message: String,
+    },
+}
+
+/// The batches of a [`RenderJob`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Rendered {
+    /// For each batch and pixel (row by row from the top) the mean of its samples.
+    pub batches: Vec<Vec<[f32; 3]>>,
+    /// Samples that were NaN or infinite. They count as black in the means.
+    pub non_finite: u64,
+    /// Samples that were finite but negative.
+    pub negative: u64,
+    /// The first few of either kind.
+    pub first_anomalies: Vec<AnomalousSample>,
+    /// Processor time that rendering took, over all threads, in seconds.
+    pub cpu_seconds: f64,
+}
+
+/// A sample that no correct estimator gives, and how to make it again.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AnomalousSample {
+    /// The seed of its batch.
+    pub seed: u64,
+    /// Pixel column.
+    pub x: u32,
+    /// Pixel row.
+    pub y: u32,
+    /// Number of the sample.
+    pub sample: u64,
+    /// Its value.
+    pub value: [f32; 3],
+}
+
+/// Writes one message.
+pub fn write_message(writer: &mut impl Write, message: &impl Serialize) -> io::Result<()> {
+    let bytes = postcard::to_stdvec(message).map_err(io::Error::other)?;
+    let length = u32::try_from(bytes.len()).ok().filter(|&length| length <= MAX_MESSAGE);
+    let length = length.ok_or_else(|| io::Error::other("message too long"))?;
+    writer.write_all(&length.to_le_bytes())?;
+    writer.write_all(&bytes)?;
+    writer.flush()
+}
+
+/// Reads one message of at most `limit` bytes; `None` at the end of the stream.
+pub fn read_message<T: DeserializeOwned>(reader: &mut impl Read, limit: u32) -> io::Result<Option<T>> {
+    let mut length = [0; 4];
+    if reader.read(&mut length[..1])? == 0 {
+        return Ok(None);
+    }
+    reader.read_exact(&mut length[1..])?;
+    let length = u32::from_le_bytes(length);
+    if length > limit {
+        return Err(io::Error::new(io::ErrorKind::InvalidData, format!("a message of {length} bytes")));
+    }
+    // Grow as the bytes come: a length alone must not make anyone reserve memory.
+    let mut bytes = Vec::new();
+    reader.take(u64::from(length)).read_to_end(&mut bytes)?;
+    if bytes.len() < length as usize {
+        return Err(io::ErrorKind::UnexpectedEof.into());
+    }
+    let (message, rest) = postcard::take_from_bytes(&bytes)
+        .map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error))?;
+    if !rest.is_empty() {
+        return Err(io::Error::new(io::ErrorKind::InvalidData, "bytes after the message"));
+    }
+    Ok(Some(message))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_survive_the_pipe_and_broken_ones_are_errors() {
+        let response = Response::Panicked { message: "index out of bounds".to_owned() };
+        let mut pipe = Vec::new();
+        write_message(&mut pipe, &response).expect("a vector takes everything");
+        let mut reader = pipe.as_slice();
+        assert_eq!(read_message::<Response>(&mut reader, 1 << 20).expect("it is whole"), Some(response));
+        assert_eq!(read_message::<Response>(&mut reader, 1 << 20).expect("the end is no error"), None);
+
+        for length in 1..pipe.len() {
+            assert!(
+                read_message::<Response>(&mut &pipe[..length], 1 << 20).is_err(),
+                "cut after {length} bytes"
+            );
+        }
+        assert!(read_message::<Response>(&mut pipe.as_slice(), 4).is_err(), "longer than allowed");
+        pipe[0] += 1;
+        pipe.push(0);
+        assert!(read_message::<Response>(&mut pipe.as_slice(), 1 << 20).is_err(), "trailing byte");
+    }
+}

@@ -1,0 +1,60 @@
+//! Rendering the batches of a job.
+
+use std::sync::atomic::AtomicBool;
+
+use arty::film::{Anomaly, Film};
+use arty::render::render;
+use arty::scene::Scene;
+use cpu_time::ProcessTime;
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+
+use crate::protocol::{AnomalousSample, RenderJob, Rendered};
+use crate::serve::Constructor;
+
+/// How many anomalies are named.
+const NAMED: usize = 16;
+
+/// Renders each batch with its own seed, all of them in parallel, with one path tracer.
+pub(crate) fn batches(constructor: Constructor, scene: &Scene, job: &RenderJob) -> Rendered {
+    let integrator = constructor(job.settings);
+    let start = ProcessTime::now();
+    let films: Vec<(u64, Film)> = job
+        .seeds
+        .par_iter()
+        .map(|&seed| {
+            let mut film = Film::new(job.width, job.height);
+            render(
+                &*integrator,
+                scene,
+                &mut film,
+                job.first_sample..job.first_sample.saturating_add(job.samples),
+                seed,
+                &AtomicBool::new(false),
+            );
+            (seed, film)
+        })
+        .collect();
+    let mut rendered = Rendered {
+        batches: Vec::with_capacity(films.len()),
+        non_finite: 0,
+        negative: 0,
+        first_anomalies: Vec::new(),
+        cpu_seconds: start.elapsed().as_secs_f64(),
+    };
+    for (seed, film) in films {
+        rendered.batches.push(film.pixels().iter().map(|pixel| pixel.mean().to_array()).collect());
+        let anomalies = film.anomalies();
+        rendered.non_finite += anomalies.non_finite;
+        rendered.negative += anomalies.negative;
+        let named = |&Anomaly { x, y, sample, value }: &Anomaly| AnomalousSample {
+            seed,
+            x,
+            y,
+            sample,
+            value: value.to_array(),
+        };
+        rendered.first_anomalies.extend(anomalies.first.iter().map(named));
+    }
+    rendered.first_anomalies.truncate(NAMED);
+    rendered
+}

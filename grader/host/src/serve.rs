@@ -1,0 +1,78 @@
+//! The loop that answers jobs.
+
+use std::io::{BufReader, BufWriter, Read, Write};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::process::ExitCode;
+use std::sync::Mutex;
+
+use arty::integrator::{Integrator, Settings};
+use arty::scene::Scene;
+
+use crate::protocol::{MAX_MESSAGE, Request, Response, read_message, write_message};
+use crate::{render, stdio};
+
+/// Makes the hand-in's path tracer.
+pub type Constructor = fn(Settings) -> Box<dyn Integrator>;
+
+/// Answers requests until the grader closes the pipe.
+pub fn serve(constructor: Constructor) -> ExitCode {
+    let (input, output) = match stdio::take() {
+        Ok(pipes) => pipes,
+        Err(error) => {
+            eprintln!("host: the pipe to the grader could not be taken over: {error}");
+            return ExitCode::from(3);
+        }
+    };
+    keep_panic_messages();
+    match answer_all(constructor, &mut BufReader::new(input), &mut BufWriter::new(output)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("host: the pipe to the grader broke: {error}");
+            ExitCode::from(3)
+        }
+    }
+}
+
+fn answer_all(
+    constructor: Constructor,
+    input: &mut impl Read,
+    output: &mut impl Write,
+) -> std::io::Result<()> {
+    let mut scenes = Vec::new();
+    while let Some(request) = read_message(input, MAX_MESSAGE)? {
+        let response = match request {
+            Request::Scene(description) => {
+                scenes.push(Scene::new(&description));
+                Response::SceneReady
+            }
+            Request::Render(job) => match scenes.get(job.scene as usize) {
+                None => Response::Rejected { message: format!("there is no scene {}", job.scene) },
+                Some(scene) => catch_unwind(AssertUnwindSafe(|| {
+                    Response::Rendered(render::batches(constructor, scene, &job))
+                }))
+                .unwrap_or_else(|_| Response::Panicked { message: first_panic() }),
+            },
+        };
+        write_message(output, &response)?;
+    }
+    Ok(())
+}
+
+/// What the first panic said, and where.
+static FIRST_PANIC: Mutex<Option<String>> = Mutex::new(None);
+
+fn keep_panic_messages() {
+    std::panic::set_hook(Box::new(|info| {
+        let message = info.payload_as_str().unwrap_or("a value that is not text");
+        let place = info
+            .location()
+            .map_or(String::new(), |location| format!(" ({}:{})", location.file(), location.line()));
+        if let Ok(mut first) = FIRST_PANIC.lock() {
+            first.get_or_insert_with(|| format!("{message}{place}"));
+        }
+    }));
+}
+
+fn first_panic() -> String {
+    FIRST_PANIC.lock().ok().and_then(|mut first| first.take()).unwrap_or_else(|| "(no message)".to_owned())
+}

@@ -1,0 +1,78 @@
+//! The prebuilt framework that every hand-in is linked against.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use serde::Deserialize;
+
+use crate::error::{Error, Result};
+use crate::workspace::Workspace;
+
+/// The compiled libraries of the framework, as Cargo built them from this checkout.
+///
+/// The hand-in has no part in this build: no file of it ever reaches Cargo.
+#[derive(Clone, Debug)]
+pub struct Framework {
+    /// The library `arty`.
+    pub arty: PathBuf,
+    /// The library `host`.
+    pub host: PathBuf,
+    /// The folder with these and all that they need.
+    pub dependencies: PathBuf,
+}
+
+/// The part of Cargo's messages that names what was built.
+#[derive(Deserialize)]
+struct Message {
+    reason: String,
+    target: Option<Target>,
+    #[serde(default)]
+    filenames: Vec<PathBuf>,
+}
+
+#[derive(Deserialize)]
+struct Target {
+    name: String,
+}
+
+impl Framework {
+    /// Builds the framework, or finds that it is up to date.
+    pub fn build(workspace: &Workspace) -> Result<Self> {
+        let output = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+            .args(["build", "--package", "host", "--profile", "grading", "--locked"])
+            .args(["--message-format", "json-render-diagnostics", "--target-dir"])
+            .arg(workspace.framework_target())
+            .current_dir(workspace.root())
+            // What this process was built with must not change what hand-ins are linked against.
+            .env_remove("RUSTFLAGS")
+            .env_remove("CARGO_ENCODED_RUSTFLAGS")
+            .env_remove("CARGO_BUILD_TARGET")
+            .stdin(Stdio::null())
+            .output()
+            .map_err(|error| Error::Harness(format!("cargo could not be run: {error}")))?;
+        if !output.status.success() {
+            let messages = String::from_utf8_lossy(&output.stderr);
+            return Err(Error::Harness(format!("the framework does not build:\n{messages}")));
+        }
+        let messages = String::from_utf8_lossy(&output.stdout);
+        let library = |name: &str| {
+            messages
+                .lines()
+                .filter_map(|line| serde_json::from_str::<Message>(line).ok())
+                .filter(|message| message.reason == "compiler-artifact")
+                .filter(|message| message.target.as_ref().is_some_and(|target| target.name == name))
+                .flat_map(|message| message.filenames)
+                .find(|file| file.extension().is_some_and(|extension| extension == "rlib"))
+                .ok_or_else(|| Error::Harness(format!("cargo built no library `{name}`")))
+        };
+        let (arty, host) = (library("arty")?, library("host")?);
+        // Cargo names the copy beside the profile's programs; the libraries it needs lie in `deps`.
+        let dependencies = dependencies_folder(&arty);
+        Ok(Self { arty, host, dependencies })
+    }
+}
+
+fn dependencies_folder(library: &Path) -> PathBuf {
+    let folder = library.parent().unwrap_or(Path::new("."));
+    if folder.ends_with("deps") { folder.to_owned() } else { folder.join("deps") }
+}

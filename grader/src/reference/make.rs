@@ -1,0 +1,162 @@
+//! Rendering references with the solution.
+
+use std::collections::BTreeMap;
+
+use arty::image::Image;
+use arty::integrator::{Settings, Technique};
+use arty::math::Rgb;
+use arty::sampler::batch_seed;
+use arty::scene::SceneDescription;
+use host::protocol::RenderJob;
+
+use super::{Light, Moments, Reference, SIZE};
+use crate::build::HandInProgram;
+use crate::error::{Error, Result};
+use crate::host_process::HostProcess;
+
+/// How many samples a reference takes.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// Independent renderings, from whose spread the variance of the mean is worked out.
+    pub batches: u32,
+    /// Samples of each pixel in each of them.
+    pub samples: u64,
+    /// Samples of each pixel for the moments of each technique.
+    pub single_samples: u32,
+}
+
+impl Default for Effort {
+    fn default() -> Self {
+        Self { batches: 64, samples: 2048, single_samples: 8192 }
+    }
+}
+
+/// Which images of a scene are needed: by the largest number of bounces, the techniques.
+pub type Wanted = BTreeMap<u32, Vec<Technique>>;
+
+/// Renders the reference of one scene with the solution: means by multiple importance sampling, which sees
+/// everything that any technique sees.
+pub fn make(
+    solution: &HandInProgram,
+    description: &SceneDescription,
+    wanted: &Wanted,
+    effort: Effort,
+    seed: u64,
+) -> Result<Reference> {
+    let mut renderer = Renderer::start(solution, description)?;
+    let mut by_bounces = BTreeMap::new();
+    for (&max_bounces, techniques) in wanted {
+        let settings = Settings { technique: Technique::Mis, max_bounces };
+        let batches = renderer.render(SIZE, settings, effort.batches, effort.samples, seed)?;
+        let (mean, variance) = mean_and_variance(&batches);
+        let count = f64::from(effort.batches);
+        let variance_of_mean = variance.into_iter().map(|value| value.map(|value| value / count)).collect();
+        let mut light = Light { mean, variance_of_mean, techniques: BTreeMap::new() };
+        for &technique in techniques {
+            let settings = Settings { technique, max_bounces };
+            // Batches of one sample: each "mean" is a sample.
+            let samples = renderer.render(SIZE, settings, effort.single_samples, 1, seed ^ 1)?;
+            light.techniques.insert(technique.name(), moments(&samples));
+        }
+        by_bounces.insert(max_bounces, light);
+    }
+    let samples = u64::from(effort.batches) * effort.samples;
+    let provenance = [
+        ("samples per pixel", samples.to_string()),
+        ("batches", effort.batches.to_string()),
+        ("samples per pixel for moments", effort.single_samples.to_string()),
+        ("technique", Technique::Mis.to_string()),
+        ("seed", seed.to_string()),
+    ];
+    let provenance = provenance.into_iter().map(|(key, value)| (key.to_owned(), value)).collect();
+    Ok(Reference { scene_hash: description.hash(), by_bounces, provenance })
+}
+
+/// Renders a larger picture of a scene, to be looked at.
+pub fn picture(
+    program: &HandInProgram,
+    description: &SceneDescription,
+    settings: Settings,
+    (width, height): (u32, u32),
+    samples: u64,
+    seed: u64,
+) -> Result<Image> {
+    let mut renderer = Renderer::start(program, description)?;
+    let batches = renderer.render((width, height), settings, 1, samples, seed)?;
+    let pixels = batches[0].iter().map(|&pixel| Rgb::from(pixel)).collect();
+    Ok(Image::from_pixels(width as usize, height as usize, pixels))
+}
+
+/// A trusted program with one scene loaded: its faults are the harness's.
+struct Renderer {
+    process: HostProcess,
+    scene: u32,
+}
+
+impl Renderer {
+    fn start(program: &HandInProgram, description: &SceneDescription) -> Result<Self> {
+        let mut process = HostProcess::start(program, rayon::current_num_threads())?;
+        let scene = process.load(description)?.map_err(|fault| Error::Harness(format!("the solution: {fault}")))?;
+        Ok(Self { process, scene })
+    }
+
+    /// In pieces that stay well within the time that a job may take.
+    fn render(
+        &mut self,
+        (width, height): (u32, u32),
+        settings: Settings,
+        batches: u32,
+        samples: u64,
+        seed: u64,
+    ) -> Result<Vec<Vec<[f32; 3]>>> {
+        let seeds: Vec<u64> = (0..u64::from(batches)).map(|batch| batch_seed(seed, batch)).collect();
+        let pixels = u64::from(width) * u64::from(height);
+        let per_job = (8_000_000 / (pixels * samples)).max(1) as usize;
+        let mut means = Vec::with_capacity(batches as usize);
+        for seeds in seeds.chunks(per_job) {
+            let job = RenderJob { scene: self.scene, settings, width, height, seeds: seeds.to_vec(), first_sample: 0, samples };
+            let rendered =
+                self.process.render(&job)?.map_err(|fault| Error::Harness(format!("the solution: {fault}")))?;
+            if rendered.non_finite + rendered.negative > 0 {
+                let what = format!("{:?}", rendered.first_anomalies.first());
+                return Err(Error::Harness(format!("the solution gave samples that are no radiance: {what}")));
+            }
+            means.extend(rendered.batches);
+        }
+        Ok(means)
+    }
+}
+
+/// Mean over the batches and variance between them, of each pixel and channel.
+fn mean_and_variance(batches: &[Vec<[f32; 3]>]) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
+    let count = batches.len() as f64;
+    let per_value = |f: &dyn Fn(usize, usize) -> f64| -> Vec<[f64; 3]> {
+        (0..batches[0].len()).map(|pixel| std::array::from_fn(|channel| f(pixel, channel))).collect()
+    };
+    let moment = |pixel: usize, channel: usize, center: f64, power: i32| -> f64 {
+        batches.iter().map(|batch| (f64::from(batch[pixel][channel]) - center).powi(power)).sum()
+    };
+    let mean = per_value(&|pixel, channel| moment(pixel, channel, 0.0, 1) / count);
+    let variance =
+        per_value(&|pixel, channel| moment(pixel, channel, mean[pixel][channel], 2) / (count - 1.0).max(1.0));
+    (mean, variance)
+}
+
+fn moments(samples: &[Vec<[f32; 3]>]) -> Moments {
+    let (mean, variance) = mean_and_variance(samples);
+    let count = samples.len() as f64;
+    let mut moments = Moments { deviation: vec![[0.0; 3]; mean.len()], skewness: vec![[0.0; 3]; mean.len()] };
+    for pixel in 0..mean.len() {
+        for channel in 0..3 {
+            let (mean, sigma) = (mean[pixel][channel], variance[pixel][channel].sqrt());
+            if mean == 0.0 || sigma == 0.0 {
+                continue;
+            }
+            let cubes: f64 =
+                samples.iter().map(|sample| ((f64::from(sample[pixel][channel]) - mean) / sigma).powi(3)).sum();
+            moments.deviation[pixel][channel] = sigma / mean;
+            moments.skewness[pixel][channel] = cubes / count;
+        }
+    }
+    moments
+}

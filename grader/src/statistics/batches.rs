@@ -1,0 +1,65 @@
+//! Independent renderings of one image, growing from look to look.
+
+/// For each batch the mean of its samples in each pixel, per channel.
+#[derive(Clone, Debug, Default)]
+pub struct Batches {
+    means: Vec<Vec<[f64; 3]>>,
+    /// Samples of each pixel in each batch.
+    samples: u64,
+}
+
+impl Batches {
+    /// Adds `samples` more samples of each pixel to each batch, given as their means.
+    ///
+    /// # Panics
+    /// If the number of batches or pixels is not that of the samples before.
+    pub fn extend(&mut self, means: &[Vec<[f32; 3]>], samples: u64) {
+        if self.samples == 0 {
+            self.means = means.iter().map(|batch| vec![[0.0; 3]; batch.len()]).collect();
+        }
+        assert_eq!(self.means.len(), means.len(), "batches");
+        let share = samples as f64 / (self.samples + samples) as f64;
+        for (old, new) in self.means.iter_mut().zip(means) {
+            assert_eq!(old.len(), new.len(), "pixels");
+            for (old, new) in old.iter_mut().zip(new) {
+                for (old, &new) in old.iter_mut().zip(new) {
+                    *old += share * (f64::from(new) - *old);
+                }
+            }
+        }
+        self.samples += samples;
+    }
+
+    /// The number of batches.
+    pub fn count(&self) -> usize {
+        self.means.len()
+    }
+
+    /// Samples of each pixel over all batches.
+    pub fn samples_per_pixel(&self) -> u64 {
+        self.samples * self.means.len() as u64
+    }
+
+    /// For each batch a weighted sum over all pixels and channels.
+    pub fn contrast<'a>(&'a self, weights: &'a [[f64; 3]]) -> impl Iterator<Item = f64> + 'a {
+        self.means.iter().map(move |batch| {
+            let products = batch.iter().zip(weights);
+            products.map(|(means, weights)| (0..3).map(|c| means[c] * weights[c]).sum::<f64>()).sum()
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_added_in_pieces_have_the_mean_of_the_whole() {
+        let mut batches = Batches::default();
+        batches.extend(&[vec![[1.0, 2.0, 3.0]], vec![[0.0; 3]]], 1);
+        batches.extend(&[vec![[5.0, 2.0, 0.0]], vec![[4.0; 3]]], 3);
+        assert_eq!((batches.count(), batches.samples_per_pixel()), (2, 8));
+        let red: Vec<f64> = batches.contrast(&[[1.0, 0.0, 0.0]]).collect();
+        assert_eq!(red, [4.0, 3.0]);
+    }
+}

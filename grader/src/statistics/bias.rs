@@ -1,0 +1,142 @@
+//! Is the mean of a region what it should be?
+
+use statrs::distribution::{ChiSquared, ContinuousCDF, Normal, StudentsT};
+
+use super::batches::Batches;
+use super::regions::Region;
+
+/// What a region's mean should be, and how noisy a correct estimator is there.
+#[derive(Clone, Debug)]
+pub struct Expected {
+    /// The mean of each pixel.
+    pub mean: Vec<[f64; 3]>,
+    /// The variance of that mean: what the reference itself does not know. Zero for an exact answer.
+    pub variance_of_mean: Vec<[f64; 3]>,
+    /// The variance of one sample of a correct estimator.
+    pub sample_variance: Vec<[f64; 3]>,
+    /// The third central moment of one sample of a correct estimator.
+    pub third_moment: Vec<[f64; 3]>,
+}
+
+/// Relative differences up to this are rounding errors of single precision, not bias.
+pub const TOLERATED: f64 = 1e-3;
+
+/// One region of one rendering, compared with what is expected there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Comparison {
+    /// Mean minus expected mean.
+    pub difference: f64,
+    /// Standard error of that difference.
+    pub standard_error: f64,
+    /// The expected mean.
+    pub expected: f64,
+    /// Degrees of freedom of the standard error.
+    pub freedom: f64,
+    /// False if a correct estimator is so skewed here that its mean of this many samples is not yet normal enough
+    /// for a verdict.
+    pub trusted: bool,
+}
+
+impl Comparison {
+    /// Compares the batches with what is expected, over one region.
+    ///
+    /// SE² = max(s²/B, σ²/N) + v: the spread between batches, but not less than what a correct estimator has, since
+    /// a heavy tail that no batch has met yet makes s far too small; and what the reference does not know.
+    pub fn new(batches: &Batches, expected: &Expected, region: &Region) -> Self {
+        let count = batches.count() as f64;
+        let values: Vec<f64> = batches.contrast(&region.weights).collect();
+        let mean = values.iter().sum::<f64>() / count;
+        let spread = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
+
+        // Pixels are independent of each other, channels of one pixel are not: in the worst case they vary as one.
+        let samples = batches.samples_per_pixel() as f64;
+        let mut expected_mean = 0.0;
+        let (mut reference_variance, mut floor, mut third_moment) = (0.0, 0.0, 0.0);
+        for (pixel, weights) in region.weights.iter().enumerate() {
+            if *weights == [0.0; 3] {
+                continue;
+            }
+            let sum = |values: &[f64; 3]| -> f64 { (0..3).map(|c| weights[c].abs() * values[c]).sum() };
+            expected_mean += (0..3).map(|c| weights[c] * expected.mean[pixel][c]).sum::<f64>();
+            reference_variance += sum(&expected.variance_of_mean[pixel].map(f64::sqrt)).powi(2);
+            floor += sum(&expected.sample_variance[pixel].map(f64::sqrt)).powi(2);
+            third_moment += sum(&expected.third_moment[pixel].map(|moment| moment.max(0.0).cbrt())).powi(3);
+        }
+        let skewness = if floor > 0.0 { third_moment / floor.powf(1.5) } else { 0.0 };
+        Self {
+            difference: mean - expected_mean,
+            standard_error: ((spread / count).max(floor / samples) + reference_variance).sqrt(),
+            expected: expected_mean,
+            freedom: (count - 1.0).max(1.0),
+            trusted: samples >= 154.0 * skewness * skewness,
+        }
+    }
+
+    /// |difference| beyond rounding, in standard errors. Zero if there is no difference beyond rounding.
+    pub fn t(&self) -> f64 {
+        let excess = (self.difference.abs() - TOLERATED * self.expected.abs()).max(0.0);
+        if excess == 0.0 { 0.0 } else { excess / self.standard_error }
+    }
+
+    /// The probability of a `t` at least this large, in either direction, for a correct estimator.
+    pub fn p_value(&self) -> f64 {
+        2.0 * upper_tail(self.t(), self.freedom)
+    }
+
+    /// The same, in the direction of the sign of `direction` only.
+    pub fn one_sided_p_value(&self, direction: f64) -> f64 {
+        if self.difference * direction > 0.0 { upper_tail(self.t(), self.freedom) } else { 1.0 }
+    }
+
+    /// Difference relative to the expected mean.
+    pub fn relative(&self) -> f64 {
+        ratio(self.difference, self.expected)
+    }
+
+    /// Half the width of the interval that holds the relative difference with the given confidence.
+    pub fn relative_margin(&self, confidence: f64) -> f64 {
+        ratio(quantile(0.5 + 0.5 * confidence, self.freedom) * self.standard_error, self.expected).abs()
+    }
+
+    /// The smallest relative bias that a test at level `alpha` finds with probability 0.99.
+    pub fn detectable(&self, alpha: f64) -> f64 {
+        let margin = quantile(1.0 - 0.5 * alpha, self.freedom) + quantile(0.99, self.freedom);
+        TOLERATED + ratio(margin * self.standard_error, self.expected).abs()
+    }
+}
+
+/// 0/0 is no difference at all; x/0 is beyond any measure.
+fn ratio(value: f64, expected: f64) -> f64 {
+    if value == 0.0 { 0.0 } else { value / expected.abs() }
+}
+
+/// P(T ≥ t) of Student's distribution.
+fn upper_tail(t: f64, freedom: f64) -> f64 {
+    if t.is_nan() {
+        return 0.0; // no spread at all, and yet a difference
+    }
+    if t.is_infinite() {
+        return 0.0;
+    }
+    StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |distribution| distribution.sf(t))
+}
+
+fn quantile(p: f64, freedom: f64) -> f64 {
+    StudentsT::new(0.0, 1.0, freedom).map_or(f64::INFINITY, |distribution| distribution.inverse_cdf(p))
+}
+
+/// The p-value of the smallest of `count` independent p-values (Šidák).
+pub fn smallest_of(count: usize, p: f64) -> f64 {
+    -(count as f64 * (-p.clamp(0.0, 1.0)).ln_1p()).exp_m1()
+}
+
+/// The p-value of many independent p-values at once: the sum of the squares of the normal deviates that are as
+/// unlikely (χ²). It sees what is a little wrong everywhere.
+pub fn all_of(p_values: &[f64]) -> f64 {
+    let (Ok(normal), Ok(chi_squared)) = (Normal::new(0.0, 1.0), ChiSquared::new(p_values.len() as f64)) else {
+        return 1.0;
+    };
+    // A p-value of 0 would be an infinite deviate; this one is far enough out.
+    let deviate = |p: f64| normal.inverse_cdf(1.0 - 0.5 * p.clamp(1e-15, 1.0));
+    chi_squared.sf(p_values.iter().map(|&p| deviate(p).powi(2)).sum())
+}

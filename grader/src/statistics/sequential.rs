@@ -1,0 +1,270 @@
+//! Looking again and again, with more samples each time, until the verdict is clear.
+//!
+//! A difference is first **screened** for at a level that lets one correct submission in a hundred be looked at
+//! twice; what was flagged is **confirmed** on fresh seeds with four times the samples, in the same region and
+//! direction, at a level of 1e-4. Only then is it called a bias. So a correct submission fails about once in a
+//! million.
+
+use arty::sampler::batch_seed;
+
+use super::batches::Batches;
+use super::bias::{Comparison, Expected, all_of, smallest_of};
+use super::regions::{LEVELS, Region};
+
+/// How often correct submissions may be flagged by screening, over everything that is looked at in one grade.
+pub const SCREENING_LEVEL: f64 = 0.01;
+
+/// The level of the confirmation.
+pub const CONFIRMATION_LEVEL: f64 = 1e-4;
+
+/// Independent renderings in each look.
+const BATCHES: u64 = 32;
+
+/// Samples of each pixel and batch that have been taken by each look.
+const LOOKS: [u64; 5] = [1, 4, 16, 64, 256];
+
+/// Looks before this one (counted from 0) are too early for a pass: small tiles see too little.
+const FIRST_PASS: usize = 1;
+
+/// Confidence of the interval that has to lie within the tolerance for a pass.
+const PASS_CONFIDENCE: f64 = 0.999;
+
+/// Samples that are wanted from the submission.
+#[derive(Clone, Debug)]
+pub struct Demand {
+    /// One per batch.
+    pub seeds: Vec<u64>,
+    /// Number of the first sample of each pixel.
+    pub first_sample: u64,
+    /// Samples of each pixel in each batch.
+    pub samples: u64,
+}
+
+/// What is decided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Decision {
+    /// The mean is wrong.
+    Biased,
+    /// The mean is right, within the tolerance.
+    Unbiased,
+    /// Too noisy for either.
+    Unclear,
+}
+
+/// A decision with what it rests on.
+#[derive(Clone, Debug)]
+pub struct Judgement {
+    /// What is decided.
+    pub decision: Decision,
+    /// The region that decided: the one that is biased, or else the whole image.
+    pub region: String,
+    /// That region's last comparison.
+    pub comparison: Comparison,
+    /// The smallest relative bias of the whole image that the samples would have shown.
+    pub detectable: f64,
+    /// Samples taken, over all pixels.
+    pub samples: u64,
+}
+
+/// What to decide, and how surely.
+#[derive(Clone, Copy, Debug)]
+pub struct Question<'a> {
+    /// What the image should be.
+    pub expected: &'a Expected,
+    /// Where to look; the first luminance of level 0 is the whole image.
+    pub regions: &'a [Region],
+    /// The relative bias of the whole image that must be excluded for a pass.
+    pub tolerance: f64,
+    /// The share of [`SCREENING_LEVEL`] that this question may spend.
+    pub screening_level: f64,
+    /// The seed of everything.
+    pub seed: u64,
+}
+
+/// Asks for samples until the question is decided or the last look is done.
+///
+/// # Errors
+/// What `render` fails with.
+pub fn judge<E>(
+    question: &Question<'_>,
+    mut render: impl FnMut(&Demand) -> Result<Vec<Vec<[f32; 3]>>, E>,
+) -> Result<Judgement, E> {
+    let pixels = question.expected.mean.len() as u64;
+    let seeds = seeds(question.seed);
+    let mut batches = Batches::default();
+    let mut taken = 0;
+    let mut confirmation_samples = 0;
+    for (look, total) in LOOKS.into_iter().enumerate() {
+        let demand = Demand { seeds: seeds.clone(), first_sample: taken, samples: total - taken };
+        batches.extend(&render(&demand)?, demand.samples);
+        taken = total;
+        let screening = Screening::new(question, &batches);
+        let judgement = |decision, region: &str, comparison, confirmation_samples| Judgement {
+            decision,
+            region: region.to_owned(),
+            comparison,
+            detectable: screening.whole.detectable(CONFIRMATION_LEVEL),
+            samples: (batches.samples_per_pixel() + confirmation_samples) * pixels,
+        };
+        if screening.p_value < question.screening_level / LOOKS.len() as f64 {
+            let demand = Demand {
+                seeds: self::seeds(batch_seed(question.seed, u64::MAX - look as u64)),
+                first_sample: 0,
+                samples: 4 * total,
+            };
+            let mut fresh = Batches::default();
+            fresh.extend(&render(&demand)?, demand.samples);
+            confirmation_samples += fresh.samples_per_pixel();
+            let comparison = Comparison::new(&fresh, question.expected, &screening.suspect);
+            let p_value = comparison.one_sided_p_value(screening.suspected_difference);
+            if comparison.trusted && p_value < CONFIRMATION_LEVEL {
+                return Ok(judgement(Decision::Biased, &screening.suspect.name, comparison, confirmation_samples));
+            }
+        }
+        let worst = screening.whole.relative().abs() + screening.whole.relative_margin(PASS_CONFIDENCE);
+        let clear = look >= FIRST_PASS && screening.whole.trusted && worst < question.tolerance;
+        if clear {
+            return Ok(judgement(Decision::Unbiased, "whole image", screening.whole, confirmation_samples));
+        }
+        if look + 1 == LOOKS.len() {
+            return Ok(judgement(Decision::Unclear, "whole image", screening.whole, confirmation_samples));
+        }
+    }
+    unreachable!("the last look decides");
+}
+
+fn seeds(seed: u64) -> Vec<u64> {
+    (0..BATCHES).map(|batch| batch_seed(seed, batch)).collect()
+}
+
+/// All regions at one look.
+struct Screening {
+    /// The probability that a correct submission looks this bad somewhere.
+    p_value: f64,
+    /// Where it looks worst.
+    suspect: Region,
+    /// The difference there.
+    suspected_difference: f64,
+    /// The luminance of the whole image.
+    whole: Comparison,
+}
+
+impl Screening {
+    fn new(question: &Question<'_>, batches: &Batches) -> Self {
+        let regions = question.regions;
+        let compare = |region: &Region| Comparison::new(batches, question.expected, region);
+        let comparisons: Vec<Comparison> = regions.iter().map(compare).collect();
+        let p_values: Vec<f64> = comparisons.iter().map(Comparison::p_value).collect();
+
+        // The worst region of each level, for as many as were tried.
+        let mut tests: Vec<(f64, Region, f64)> = Vec::new();
+        for level in 0..LEVELS {
+            let tried: Vec<usize> =
+                (0..regions.len()).filter(|&i| regions[i].level == level && comparisons[i].trusted).collect();
+            if let Some(&worst) = tried.iter().min_by(|&&a, &&b| p_values[a].total_cmp(&p_values[b])) {
+                let p_value = smallest_of(tried.len(), p_values[worst]);
+                tests.push((p_value, regions[worst].clone(), comparisons[worst].difference));
+            }
+        }
+        // All tiles of the finest level at once, and the pattern of their differences as a region of its own.
+        let finest = regions.iter().map(|region| region.level).max().unwrap_or(0);
+        let tiles: Vec<usize> = (0..regions.len())
+            .filter(|&i| regions[i].level == finest && regions[i].is_luminance && comparisons[i].trusted)
+            .collect();
+        if tiles.len() > 1 {
+            let p_value = all_of(&tiles.iter().map(|&i| p_values[i]).collect::<Vec<_>>());
+            tests.push((p_value, pattern(regions, &comparisons, &tiles), 1.0));
+        }
+
+        let whole = regions.iter().position(|region| region.level == 0 && region.is_luminance).unwrap_or(0);
+        let count = tests.len() as f64;
+        let worst = tests.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
+        let (p_value, suspect, suspected_difference) =
+            worst.unwrap_or_else(|| (1.0, regions[whole].clone(), 0.0));
+        Self { p_value: (count * p_value).min(1.0), suspect, suspected_difference, whole: comparisons[whole] }
+    }
+}
+
+/// The sum of the tiles, each weighted by how far it was off: fresh samples of a true bias make it positive again.
+fn pattern(regions: &[Region], comparisons: &[Comparison], tiles: &[usize]) -> Region {
+    let mut weights = vec![[0.0; 3]; regions[0].weights.len()];
+    let deviation = |i: usize| comparisons[i].t() * comparisons[i].difference.signum();
+    let norm: f64 = tiles.iter().map(|&i| deviation(i).abs()).sum::<f64>().max(f64::MIN_POSITIVE);
+    for &i in tiles {
+        for (sum, weight) in weights.iter_mut().zip(&regions[i].weights) {
+            for (sum, weight) in sum.iter_mut().zip(weight) {
+                *sum += weight * deviation(i) / norm;
+            }
+        }
+    }
+    Region { name: "pattern over all tiles".to_owned(), level: regions[tiles[0]].level, weights, is_luminance: true }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::regions::pyramid;
+    use super::*;
+    use arty::sampler::Sampler;
+
+    /// Exponentially distributed samples around a mean, as an estimator that is right or wrong by a factor.
+    fn exponential(factor: f64, corner_factor: f64) -> impl FnMut(&Demand) -> Result<Vec<Vec<[f32; 3]>>, ()> {
+        move |demand| {
+            let batch = |&seed: &u64| {
+                let pixel = |i: u32| {
+                    let samples = demand.first_sample..demand.first_sample + demand.samples;
+                    let sum: f64 = samples
+                        .map(|sample| {
+                            let u = Sampler::new(seed, (i, 0), sample).next_1d();
+                            -f64::from(1.0 - u).ln()
+                        })
+                        .sum();
+                    let factor = if i < 2 { factor * corner_factor } else { factor };
+                    [(factor * sum / demand.samples as f64) as f32; 3]
+                };
+                (0..256).map(pixel).collect()
+            };
+            Ok(demand.seeds.iter().map(batch).collect())
+        }
+    }
+
+    fn judge_exponential(factor: f64, corner_factor: f64, seed: u64) -> Judgement {
+        let expected = Expected {
+            mean: vec![[1.0; 3]; 256],
+            variance_of_mean: vec![[0.0; 3]; 256],
+            sample_variance: vec![[1.0; 3]; 256],
+            third_moment: vec![[2.0; 3]; 256],
+        };
+        let regions = pyramid(16, 16);
+        let question =
+            Question { expected: &expected, regions: &regions, tolerance: 0.02, screening_level: 0.01, seed };
+        judge(&question, exponential(factor, corner_factor)).expect("it cannot fail")
+    }
+
+    #[test]
+    fn a_correct_estimator_passes() {
+        // Nominal false-alarm rate 1e-6 each: 2e-5 over the twenty fixed seeds.
+        for seed in 0..20 {
+            let judgement = judge_exponential(1.0, 1.0, seed);
+            assert_eq!(judgement.decision, Decision::Unbiased, "seed {seed}: {judgement:?}");
+        }
+    }
+
+    #[test]
+    fn a_biased_estimator_is_caught_early_if_the_bias_is_large() {
+        for (factor, most) in [(1.03, 1_000_000), (0.9, 300_000), (2.0, 50_000), (0.0, 50_000)] {
+            for seed in 0..10 {
+                let judgement = judge_exponential(factor, 1.0, seed);
+                assert_eq!(judgement.decision, Decision::Biased, "× {factor}, seed {seed}: {judgement:?}");
+                assert!(judgement.samples <= most, "× {factor}: {}", judgement.samples);
+            }
+        }
+    }
+
+    #[test]
+    fn a_mistake_in_one_corner_is_found_there() {
+        for seed in 0..10 {
+            let judgement = judge_exponential(1.0, 0.5, seed);
+            assert_eq!(judgement.decision, Decision::Biased, "seed {seed}");
+        }
+    }
+}
