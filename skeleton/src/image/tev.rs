@@ -15,7 +15,7 @@ pub const DEFAULT_ADDRESS: &str = "127.0.0.1:14158";
 const DEFAULT_PORT: u16 = 14158;
 
 /// How long to wait for the viewer to accept a connection, and then each time to take some data.
-const PATIENCE: Duration = Duration::from_secs(1);
+const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Pixels are sent in bands of rows of about this many, so that a packet stays small and the picture
 /// appears bit by bit.
@@ -44,7 +44,7 @@ impl LiveView {
     ///
     /// # Errors
     ///
-    /// If no viewer takes the connection within a second (for each address that the host has; looking up a
+    /// If no viewer takes the connection within two seconds (for each address that the host has; looking up a
     /// host by name has a time limit of its own).
     pub fn open(
         address: &str,
