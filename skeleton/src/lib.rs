@@ -14,7 +14,8 @@
 //! | [`camera`] | from pixels to rays |
 //! | [`scene`] | scenes: their files, what they have, what a ray hits in them |
 //! | [`integrator`] | what a light transport algorithm is |
-//! | [`film`], [`render`] | gathering samples |
+//! | [`film`], [`render`](mod@render) | gathering samples |
+//! | [`srgb`], `image` | pictures in memory, in files, in a viewer |
 //!
 //! # Units and conventions
 //! Positions and directions are in world space, right-handed. Directions are unit vectors that point away from the
@@ -26,6 +27,8 @@ pub mod accel;
 pub mod bsdf;
 pub mod camera;
 pub mod film;
+#[cfg(feature = "files")]
+pub mod image;
 pub mod integrator;
 pub mod light;
 pub mod math;

@@ -1,22 +1,38 @@
-//! The transfer curve of sRGB (IEC 61966-2-1): between linear values and what image files hold.
+//! From radiance to what a display shows, and back.
+//!
+//! The transfer curve is that of sRGB (IEC 61966-2-1): linear near black, a power of 2.4 above.
 
 use std::sync::LazyLock;
 
-/// From a value with the transfer curve, in [0, 1], to linear.
-pub fn decode(value: f32) -> f32 {
-    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
-}
-
-/// From linear to a value with the transfer curve; both in [0, 1].
-pub fn encode(linear: f32) -> f32 {
+/// The sRGB encoding of a linear value: 0 is black, 1 is the display's white.
+///
+/// Not clamped: the curve goes on above 1, and its straight part below 0.
+pub fn srgb_encode(linear: f32) -> f32 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 
-/// [`decode`] for a value of 8 bits, from a table.
-#[inline]
-pub fn decode_8bit(value: u8) -> f32 {
-    static TABLE: LazyLock<[f32; 256]> = LazyLock::new(|| std::array::from_fn(|i| decode(i as f32 / 255.0)));
-    TABLE[usize::from(value)]
+/// The linear value that [`srgb_encode`] takes to `encoded`.
+pub fn srgb_decode(encoded: f32) -> f32 {
+    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+}
+
+/// The nearest of the 256 levels of an sRGB picture: everything up to 0 (and NaN) is level 0, everything
+/// from 1 (and infinity) is level 255.
+pub fn linear_to_srgb_u8(linear: f32) -> u8 {
+    (srgb_encode(linear) * 255.0).round() as u8
+}
+
+/// The linear value of one of the 256 levels of an sRGB picture.
+pub fn srgb_to_linear_u8(level: u8) -> f32 {
+    // Textures ask for this at every look-up, and there are only so many answers.
+    static LINEAR: LazyLock<[f32; 256]> =
+        LazyLock::new(|| std::array::from_fn(|level| srgb_decode(level as f32 / 255.0)));
+    LINEAR[usize::from(level)]
+}
+
+/// The factor of an exposure in stops (EV): each stop doubles the brightness.
+pub fn exposure_factor(stops: f32) -> f32 {
+    stops.exp2()
 }
 
 #[cfg(test)]
@@ -24,10 +40,41 @@ mod tests {
     use super::*;
 
     #[test]
-    fn encode_inverts_decode_at_every_8_bit_value() {
-        for value in 0..=255u8 {
-            assert_eq!((encode(decode_8bit(value)) * 255.0).round() as u8, value);
+    fn known_values_have_known_levels() {
+        // 0.5 and 0.18 by hand: 255 (1.055 · x^(1/2.4) − 0.055) = 187.5 and 117.6.
+        let cases = [(0.0, 0), (0.003_130_8, 10), (0.18, 118), (0.5, 188), (1.0, 255), (2.0, 255)];
+        for (linear, level) in cases {
+            assert_eq!(linear_to_srgb_u8(linear), level, "{linear}");
         }
-        assert!((encode(0.18) * 255.0 - 117.6).abs() < 0.1, "middle grey");
+        assert_eq!(linear_to_srgb_u8(-1.0), 0);
+        assert_eq!(linear_to_srgb_u8(f32::INFINITY), 255);
+        assert_eq!(linear_to_srgb_u8(f32::NEG_INFINITY), 0);
+        assert_eq!(linear_to_srgb_u8(f32::NAN), 0);
+    }
+
+    #[test]
+    fn every_level_survives_decoding_and_encoding() {
+        for level in 0..=255 {
+            assert_eq!(linear_to_srgb_u8(srgb_to_linear_u8(level)), level);
+        }
+    }
+
+    #[test]
+    fn the_two_parts_of_the_curve_meet() {
+        // The constants of the standard are rounded: the parts meet to about 1e-7, and so does the decoding.
+        let (below, above) = (0.003_130_8_f32, 0.003_130_9_f32);
+        assert!((srgb_encode(above) - srgb_encode(below)).abs() < 2e-6);
+        assert!((srgb_decode(0.040_45) - 0.003_130_8).abs() < 1e-7);
+        for i in 0..=1000 {
+            let linear = i as f32 / 250.0;
+            assert!((srgb_decode(srgb_encode(linear)) - linear).abs() <= 2e-6 * linear.max(1.0), "{linear}");
+        }
+    }
+
+    #[test]
+    fn a_stop_is_a_factor_of_two() {
+        assert_eq!(exposure_factor(0.0), 1.0);
+        assert_eq!(exposure_factor(3.0), 8.0);
+        assert_eq!(exposure_factor(-1.0), 0.5);
     }
 }

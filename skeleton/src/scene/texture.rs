@@ -2,7 +2,7 @@
 
 use super::Texture;
 use crate::math::{Rgb, Vec2};
-use crate::srgb::decode_8bit;
+use crate::srgb::srgb_to_linear_u8;
 
 impl Texture {
     /// The linear colour at texture coordinates `uv`, between the centres of texels by bilinear interpolation.
@@ -16,7 +16,7 @@ impl Texture {
             let column = (x.floor() as i64 + dx).rem_euclid(i64::from(self.width)) as usize;
             let row = (y.floor() as i64 + dy).rem_euclid(i64::from(self.height)) as usize;
             let [r, g, b] = self.texels[row * self.width as usize + column];
-            Rgb::new(decode_8bit(r), decode_8bit(g), decode_8bit(b))
+            Rgb::new(srgb_to_linear_u8(r), srgb_to_linear_u8(g), srgb_to_linear_u8(b))
         };
         let top = (1.0 - fx) * texel(0, 0) + fx * texel(1, 0);
         let bottom = (1.0 - fx) * texel(0, 1) + fx * texel(1, 1);

@@ -1,0 +1,156 @@
+//! Reading OpenEXR files, also broken and hostile ones.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{BufReader, Read, Seek};
+use std::path::Path;
+
+use ::exr::block::UncompressedBlock;
+use ::exr::block::reader::ChunksReader;
+use ::exr::error::Error;
+use ::exr::meta::BlockDescription;
+use ::exr::meta::attribute::{AttributeValue, Compression, SampleType};
+use ::exr::meta::header::{Header, LayerAttributes};
+use ::exr::prelude::f16;
+
+use super::ExrFile;
+use crate::scene::Diagnostic;
+
+/// The most samples that are read: 1 GiB of memory.
+const MAX_SAMPLES: u128 = 1 << 28;
+/// The most bytes of a file that can hold as many samples: what zlib adds at worst is far less than 1/16.
+const MAX_FILE_LENGTH: u64 = (4 << 28) + (4 << 24);
+/// No accepted compression can make pixels smaller than by this factor (zlib: 1032; run lengths: 64).
+const MAX_COMPRESSION_RATIO: u128 = 1040;
+
+impl ExrFile {
+    /// Reads a file of one part in scan lines, uncompressed or compressed by run lengths or zlib, which is
+    /// what [`ExrFile::write`] and most programs write.
+    ///
+    /// Samples of other types are converted to 32-bit floats.
+    ///
+    /// # Errors
+    ///
+    /// If the file cannot be read, is not such a file, or is damaged. Memory is taken only for as many
+    /// pixels as a file of its length can hold, and never for more than 2²⁸ samples.
+    pub fn read(path: &Path) -> Result<Self, Diagnostic> {
+        let fail = |reason: String| Diagnostic::about(path, format!("cannot be read: {reason}"));
+        let file = File::open(path).map_err(|error| fail(error.to_string()))?;
+        let length = file.metadata().map_err(|error| fail(error.to_string()))?.len();
+        decode(BufReader::new(file), length).map_err(fail)
+    }
+}
+
+/// Reads a file of `length` bytes, or says what is wrong with it.
+pub(super) fn decode(file: impl Read + Seek, length: u64) -> Result<ExrFile, String> {
+    // The metadata may be as long as the file, hence this comes before it.
+    if length > MAX_FILE_LENGTH {
+        return Err(format!("the file has {length} bytes; at most {MAX_FILE_LENGTH} are read"));
+    }
+    let reader = ::exr::block::read(file, true).map_err(explain)?;
+    let [header] = reader.headers() else {
+        return Err("it has several parts; write it with all layers in one".to_owned());
+    };
+    check(header, length)?;
+
+    let header = header.clone();
+    let (width, height) = (header.layer_size.width(), header.layer_size.height());
+    let mut channels = vec![vec![0.0; width * height]; header.channels.list.len()];
+    let mut is_row_read = vec![false; height];
+    let chunks = reader.all_chunks(true).map_err(explain)?;
+    for block in chunks.sequential_decompressor(true) {
+        let block = block.map_err(explain)?;
+        // There are as many blocks as the picture needs, hence none is missing if none comes twice.
+        let top = block.index.pixel_position.y();
+        if std::mem::replace(&mut is_row_read[top], true) {
+            return Err(format!("it holds row {top} twice"));
+        }
+        copy_samples(&block, &header, &mut channels).map_err(explain)?;
+    }
+
+    let names = header.channels.list.iter().map(|channel| lossy(channel.name.as_slice()));
+    let channels = names.zip(channels).collect();
+    Ok(ExrFile { width, height, channels, metadata: metadata(&header.own_attributes) })
+}
+
+/// Refuses what is not read, and what would take memory out of proportion to the file.
+fn check(header: &Header, length: u64) -> Result<(), String> {
+    if header.deep || header.blocks != BlockDescription::ScanLines {
+        return Err("it is tiled or deep; write it in scan lines".to_owned());
+    }
+    let compression = header.compression;
+    if !matches!(
+        compression,
+        Compression::Uncompressed | Compression::RLE | Compression::ZIP1 | Compression::ZIP16
+    ) {
+        return Err(format!("its compression ({compression}) is not read; write it with zip compression"));
+    }
+    let (width, height) = (header.layer_size.width(), header.layer_size.height());
+    let count = header.channels.list.len();
+    let samples = width as u128 * height as u128 * count as u128;
+    if samples > MAX_SAMPLES {
+        return Err(format!(
+            "{width} x {height} pixels in {count} channels are more than {MAX_SAMPLES} samples"
+        ));
+    }
+    let pixel_bytes = width as u128 * height as u128 * header.channels.bytes_per_pixel as u128;
+    if pixel_bytes > MAX_COMPRESSION_RATIO * u128::from(length) {
+        return Err(format!(
+            "it claims {width} x {height} pixels in {count} channels, which {length} bytes cannot hold"
+        ));
+    }
+    Ok(())
+}
+
+/// Copies the samples of a block to where they belong in the channels of the picture.
+fn copy_samples(block: &UncompressedBlock, header: &Header, channels: &mut [Vec<f32>]) -> Result<(), Error> {
+    let width = header.layer_size.width();
+    for line in block.lines(&header.channels) {
+        let place = line.location;
+        let start = place.position.y() * width + place.position.x();
+        let row = &mut channels[place.channel][start..start + place.sample_count];
+        match header.channels.list[place.channel].sample_type {
+            SampleType::F32 => line.read_samples_into_slice(row)?,
+            SampleType::F16 => {
+                for (sample, half) in row.iter_mut().zip(line.read_samples::<f16>()) {
+                    *sample = half?.to_f32();
+                }
+            }
+            SampleType::U32 => {
+                for (sample, whole) in row.iter_mut().zip(line.read_samples::<u32>()) {
+                    *sample = whole? as f32;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// All metadata that is text and not about how the pixels are stored.
+fn metadata(attributes: &LayerAttributes) -> BTreeMap<String, String> {
+    let standard = [
+        ("software", &attributes.software_name),
+        ("comments", &attributes.comments),
+        ("owner", &attributes.owner),
+        ("capDate", &attributes.capture_date),
+    ];
+    let standard = standard.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value.as_ref()?)));
+    let other = attributes.other.iter().filter_map(|(name, value)| match value {
+        AttributeValue::Text(text) => Some((lossy(name.as_slice()), text)),
+        _ => None,
+    });
+    standard.chain(other).map(|(name, value)| (name, lossy(value.as_slice()))).collect()
+}
+
+/// The format's text, which is not always UTF-8.
+fn lossy(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+fn explain(error: Error) -> String {
+    match error {
+        Error::Invalid(reason) => format!("it is damaged or not an OpenEXR file ({reason})"),
+        Error::NotSupported(reason) => format!("it uses what is not read ({reason})"),
+        error => error.to_string(),
+    }
+}

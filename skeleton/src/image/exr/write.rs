@@ -1,0 +1,125 @@
+//! Writing OpenEXR files.
+
+use std::io::{Seek, Write};
+use std::path::Path;
+
+use ::exr::block::UncompressedBlock;
+use ::exr::block::writer::ChunksWriter;
+use ::exr::error::Error;
+use ::exr::meta::BlockDescription;
+use ::exr::meta::attribute::{AttributeValue, ChannelDescription, Compression, LineOrder, SampleType, Text};
+use ::exr::meta::header::{Header, LayerAttributes, standard_names};
+use ::exr::prelude::{SmallVec, f16};
+
+use super::{ExrFile, Precision};
+use crate::image::write_aside;
+use crate::scene::Diagnostic;
+
+/// Names of channels and metadata may have this many bytes.
+const MAX_NAME_LENGTH: usize = 255;
+
+impl ExrFile {
+    /// Writes the file, compressed without loss.
+    ///
+    /// # Errors
+    ///
+    /// If the format cannot hold this (no pixels or no channels, a channel of another size, a name that is
+    /// empty, too long or reserved), or as [`write_aside`]; an earlier file is kept then.
+    pub fn write(&self, path: &Path, precision: Precision) -> Result<(), Diagnostic> {
+        let header = self.header(precision).map_err(|reason| {
+            Diagnostic::about(path, format!("cannot be written as an OpenEXR file: {reason}"))
+        })?;
+        write_aside(path, |file| self.encode(header, file))
+    }
+
+    /// What stands before the pixels, or what is wrong with it.
+    fn header(&self, precision: Precision) -> Result<Header, String> {
+        let (width, height) = (self.width, self.height);
+        // The format ends at i32::MAX / 2; a picture near that would not fit into memory.
+        if !(1..1 << 30).contains(&width) || !(1..1 << 30).contains(&height) {
+            return Err(format!("{width} x {height} pixels are too few or too many"));
+        }
+        if self.channels.is_empty() {
+            return Err("there are no channels".to_owned());
+        }
+        for (name, samples) in &self.channels {
+            check_name(name)?;
+            if samples.len() != width * height {
+                let count = samples.len();
+                return Err(format!("channel {name} has {count} samples for {width} x {height} pixels"));
+            }
+        }
+        let sample_type = match precision {
+            Precision::Full => SampleType::F32,
+            Precision::Half => SampleType::F16,
+        };
+        // The format wants the channels in the order of their names, which is the order of the map.
+        let channels: SmallVec<[ChannelDescription; 5]> =
+            self.channels.keys().map(|name| ChannelDescription::named(text(name), sample_type)).collect();
+        Ok(Header::new(Text::default(), (width, height), channels)
+            .with_encoding(Compression::ZIP16, BlockDescription::ScanLines, LineOrder::Increasing)
+            .with_attributes(self.attributes()?))
+    }
+
+    /// The metadata as the format has it.
+    fn attributes(&self) -> Result<LayerAttributes, String> {
+        let mut attributes = LayerAttributes {
+            software_name: Some(text(concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION")))),
+            ..LayerAttributes::default()
+        };
+        for (name, value) in &self.metadata {
+            check_name(name)?;
+            let value = text(value);
+            match name.as_str() {
+                "software" => attributes.software_name = Some(value),
+                "comments" => attributes.comments = Some(value),
+                "owner" => attributes.owner = Some(value),
+                "capDate" => attributes.capture_date = Some(value),
+                reserved if standard_names::ALL.contains(&reserved.as_bytes()) => {
+                    return Err(format!("the format has another use for the name {reserved}"));
+                }
+                _ => drop(attributes.other.insert(text(name), AttributeValue::Text(value))),
+            }
+        }
+        Ok(attributes)
+    }
+
+    fn encode(&self, header: Header, file: impl Write + Seek) -> Result<(), Error> {
+        let channels = header.channels.clone();
+        let samples: Vec<&[f32]> = self.channels.values().map(Vec::as_slice).collect();
+        ::exr::block::write(file, [header].into_iter().collect(), true, |meta, writer| {
+            let blocks = meta.collect_ordered_block_data(|block| {
+                UncompressedBlock::collect_block_data_from_lines(&channels, block, |line| {
+                    let place = line.location;
+                    let start = place.position.y() * self.width + place.position.x();
+                    let row = &samples[place.channel][start..start + place.sample_count];
+                    let written = match channels.list[place.channel].sample_type {
+                        SampleType::F16 => line.write_samples(|x| to_half(row[x])),
+                        _ => line.write_samples_from_slice(row),
+                    };
+                    written.expect("a line of a block has room for its samples");
+                })
+            });
+            // Nobody listens to the progress: the crate offers no other way to compress through a reference.
+            writer.on_progress(|_| ()).compress_all_blocks_parallel(&meta, blocks)
+        })
+    }
+}
+
+/// Rounds to 16 bits; finite values stay finite, since an infinity would look like a fault of the renderer.
+fn to_half(value: f32) -> f16 {
+    let limit = f16::MAX.to_f32();
+    f16::from_f32(if value.is_finite() { value.clamp(-limit, limit) } else { value })
+}
+
+/// The format's text: bytes, which are UTF-8 here.
+fn text(text: &str) -> Text {
+    Text::from_slice_unchecked(text.as_bytes())
+}
+
+fn check_name(name: &str) -> Result<(), String> {
+    if name.is_empty() || name.len() > MAX_NAME_LENGTH || name.contains('\0') {
+        return Err(format!("{name:?} is not a name of 1 to {MAX_NAME_LENGTH} bytes without a zero byte"));
+    }
+    Ok(())
+}
