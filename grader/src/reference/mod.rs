@@ -58,7 +58,8 @@ impl Light {
         let per_value = |f: &dyn Fn(usize, usize) -> f64| -> Vec<[f64; 3]> {
             (0..self.mean.len()).map(|pixel| std::array::from_fn(|channel| f(pixel, channel))).collect()
         };
-        let deviation = |pixel: usize, channel: usize| moments.deviation[pixel][channel] * self.mean[pixel][channel];
+        let deviation =
+            |pixel: usize, channel: usize| moments.deviation[pixel][channel] * self.mean[pixel][channel];
         Some(Expected {
             mean: self.mean.clone(),
             variance_of_mean: self.variance_of_mean.clone(),

@@ -133,7 +133,8 @@ pub fn smallest_of(count: usize, p: f64) -> f64 {
 /// The p-value of many independent p-values at once: the sum of the squares of the normal deviates that are as
 /// unlikely (χ²). It sees what is a little wrong everywhere.
 pub fn all_of(p_values: &[f64]) -> f64 {
-    let (Ok(normal), Ok(chi_squared)) = (Normal::new(0.0, 1.0), ChiSquared::new(p_values.len() as f64)) else {
+    let (Ok(normal), Ok(chi_squared)) = (Normal::new(0.0, 1.0), ChiSquared::new(p_values.len() as f64))
+    else {
         return 1.0;
     };
     // A p-value of 0 would be an infinite deviate; this one is far enough out.

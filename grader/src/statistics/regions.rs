@@ -34,7 +34,8 @@ pub fn pyramid(width: u32, height: u32) -> Vec<Region> {
         for row in 0..across {
             for column in 0..across {
                 let tile = Tile { width, height, across, row, column };
-                let channels = [("red", [1.0, 0.0, 0.0]), ("green", [0.0, 1.0, 0.0]), ("blue", [0.0, 0.0, 1.0])];
+                let channels =
+                    [("red", [1.0, 0.0, 0.0]), ("green", [0.0, 1.0, 0.0]), ("blue", [0.0, 0.0, 1.0])];
                 for (name, channel) in channels {
                     regions.push(tile.region(level, name, channel, false));
                 }

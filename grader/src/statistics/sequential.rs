@@ -118,7 +118,12 @@ pub fn judge<E>(
             let comparison = Comparison::new(&fresh, question.expected, &screening.suspect);
             let p_value = comparison.one_sided_p_value(screening.suspected_difference);
             if comparison.trusted && p_value < CONFIRMATION_LEVEL {
-                return Ok(judgement(Decision::Biased, &screening.suspect.name, comparison, confirmation_samples));
+                return Ok(judgement(
+                    Decision::Biased,
+                    &screening.suspect.name,
+                    comparison,
+                    confirmation_samples,
+                ));
             }
         }
         let worst = screening.whole.relative().abs() + screening.whole.relative_margin(PASS_CONFIDENCE);
@@ -197,7 +202,12 @@ fn pattern(regions: &[Region], comparisons: &[Comparison], tiles: &[usize]) -> R
             }
         }
     }
-    Region { name: "pattern over all tiles".to_owned(), level: regions[tiles[0]].level, weights, is_luminance: true }
+    Region {
+        name: "pattern over all tiles".to_owned(),
+        level: regions[tiles[0]].level,
+        weights,
+        is_luminance: true,
+    }
 }
 
 #[cfg(test)]
