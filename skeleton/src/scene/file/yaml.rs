@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::keys::SceneFile;
-use super::text::{self, Reference};
+use super::text;
 use crate::scene::Diagnostic;
 
 /// More than any scene file written by hand or by a script needs.
@@ -12,8 +12,8 @@ const MAX_BYTES: u64 = 4 << 20;
 /// Far deeper than the format goes. The parser's time grows with the square of the depth.
 const MAX_DEPTH: usize = 256;
 
-/// Reads a scene file, but none of the files that it names.
-pub(super) fn read(path: &Path) -> Result<SceneFile, Diagnostic> {
+/// Reads a scene file, but none of the files that it names; returns its text too.
+pub(super) fn read(path: &Path) -> Result<(SceneFile, String), Diagnostic> {
     let text = text::read(path, MAX_BYTES, None)?;
     if text.lines().all(|line| line.trim().is_empty() || line.starts_with('#')) {
         return Err(Diagnostic::about(path, "is empty, but a scene has at least `meshes` and `camera`"));
@@ -25,7 +25,10 @@ pub(super) fn read(path: &Path) -> Result<SceneFile, Diagnostic> {
             "too many brackets are open; a scene needs no more than five",
         ));
     }
-    serde_yaml::from_str(&text).map_err(|error| diagnostic(path, &text, &error))
+    match serde_yaml::from_str(&text) {
+        Ok(scene) => Ok((scene, text)),
+        Err(error) => Err(diagnostic(path, &text, &error)),
+    }
 }
 
 fn diagnostic(path: &Path, text: &str, error: &serde_yaml::Error) -> Diagnostic {
@@ -91,14 +94,10 @@ fn line_nested_too_deeply(text: &str) -> Option<usize> {
     None
 }
 
-/// Where a scene file names `file`.
+/// The line of a scene file that names `file`.
 ///
-/// The parser keeps no positions, so this looks for the text; a name that was written with escapes is not
-/// found, and the reference is then to the file as a whole.
-pub(super) fn reference_to_mesh(scene: &Path, file: &str) -> Reference {
-    let line = std::fs::read_to_string(scene).ok().and_then(|text| {
-        let names_it = |line: &str| !line.trim_start().starts_with('#') && line.contains(file);
-        text.lines().position(names_it).map(|index| index + 1)
-    });
-    Reference { file: scene.to_owned(), line }
+/// The parser keeps no positions, so this looks for the text. A name that was written with escapes is not found.
+pub(super) fn line_that_names(file: &str, text: &str) -> Option<usize> {
+    let names_it = |line: &str| !line.trim_start().starts_with('#') && line.contains(file);
+    text.lines().position(names_it).map(|index| index + 1)
 }

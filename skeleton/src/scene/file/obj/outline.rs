@@ -201,11 +201,12 @@ fn out_of_range(kind: usize, index: i64, count: usize) -> String {
     }
 }
 
-/// The beginning of a word, so that garbage does not fill the screen.
+/// The beginning of a word, without control characters, so that garbage does not upset the terminal.
 pub(super) fn shown(word: &str) -> String {
     const LONGEST: usize = 40;
-    let mut start: String = word.chars().take(LONGEST).collect();
-    if start.len() < word.len() {
+    let printable = |character: char| if character.is_control() { '\u{fffd}' } else { character };
+    let mut start: String = word.chars().take(LONGEST).map(printable).collect();
+    if word.chars().nth(LONGEST).is_some() {
         start.push('…');
     }
     start
