@@ -14,7 +14,9 @@ type Case = (&'static str, Option<usize>, &'static [&'static str]);
 #[rustfmt::skip]
 const CASES: &[Case] = &[
     ("empty.yml", None, &["is empty", "`meshes`"]),
-    ("only_a_comment.yml", None, &["meshes"]),
+    ("only_a_comment.yml", None, &["is empty", "`meshes`"]),
+    ("control_character.yml", Some(2), &["control characters"]),
+    ("very_long_value.yml", Some(2), &["camera.fov", "…", "angle of view"]),
     ("not_utf8.yml", Some(2), &["UTF-8"]),
     ("syntax.yml", None, &[]),
     ("tab_indent.yml", Some(2), &["tab"]),

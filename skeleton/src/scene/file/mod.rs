@@ -80,9 +80,11 @@ mod transform;
 mod warnings;
 mod yaml;
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use self::materials::Materials;
+use self::text::{Reference, relative_to};
 use self::transform::Placement;
 use self::warnings::Warnings;
 use super::{Diagnostic, SceneDescription};
@@ -102,13 +104,16 @@ pub struct Loaded {
 /// The first thing found that makes the scene unusable: the file that is wrong (it need not be `path`), the line
 /// if one is to blame, and what was expected.
 pub fn load(path: &Path) -> Result<Loaded, Diagnostic> {
-    let scene = yaml::read(path)?;
+    let (scene, text) = yaml::read(path)?;
     let mut materials = Materials::default();
     let mut warnings = Warnings::default();
     let mut meshes = Vec::with_capacity(scene.meshes.len());
+    // A scene may have one file thousands of times, so its name is looked up once.
+    let mut lines = HashMap::new();
     for mesh in &scene.meshes {
-        let file = text::relative_to(path, &mesh.file);
-        let named = yaml::reference_to_mesh(path, &mesh.file);
+        let file = relative_to(path, &mesh.file);
+        let line = *lines.entry(&mesh.file).or_insert_with(|| yaml::line_that_names(&mesh.file, &text));
+        let named = Reference { file: path.to_owned(), line };
         let placement = Placement::new(mesh.transform);
         meshes.push(obj::read(&file, &named, &placement, &mut materials, &mut warnings)?);
     }

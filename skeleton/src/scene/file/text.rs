@@ -109,6 +109,8 @@ pub(super) struct Statement<'a> {
     pub(super) arguments: &'a str,
     /// The whole line with its end.
     pub(super) text: &'a str,
+    /// Where the line starts in the file, in bytes.
+    pub(super) start: usize,
 }
 
 impl<'a> Statement<'a> {
@@ -120,14 +122,17 @@ impl<'a> Statement<'a> {
 
 /// The lines of an OBJ or MTL file, but for those that are empty or a comment.
 pub(super) fn statements(text: &str) -> impl Iterator<Item = Statement<'_>> {
-    text.split_inclusive('\n').enumerate().filter_map(|(index, text)| {
+    let mut end_of_last = 0;
+    text.split_inclusive('\n').enumerate().filter_map(move |(index, text)| {
+        let start = end_of_last;
+        end_of_last += text.len();
         let words = text.trim_ascii();
         if words.is_empty() || words.starts_with('#') {
             return None;
         }
         let end = words.bytes().position(|byte| byte.is_ascii_whitespace()).unwrap_or(words.len());
         let (keyword, arguments) = words.split_at(end);
-        Some(Statement { line: index + 1, keyword, arguments: arguments.trim_ascii_start(), text })
+        Some(Statement { line: index + 1, keyword, arguments: arguments.trim_ascii_start(), text, start })
     })
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::keys::SceneFile;
-use super::text::{self, Reference};
+use super::text;
 use crate::scene::Diagnostic;
 
 /// More than any scene file written by hand or by a script needs.
@@ -12,10 +12,10 @@ const MAX_BYTES: u64 = 4 << 20;
 /// Far deeper than the format goes. The parser's time grows with the square of the depth.
 const MAX_DEPTH: usize = 256;
 
-/// Reads a scene file, but none of the files that it names.
-pub(super) fn read(path: &Path) -> Result<SceneFile, Diagnostic> {
+/// Reads a scene file, but none of the files that it names; returns its text too.
+pub(super) fn read(path: &Path) -> Result<(SceneFile, String), Diagnostic> {
     let text = text::read(path, MAX_BYTES, None)?;
-    if text.trim().is_empty() {
+    if text.lines().all(|line| line.trim().is_empty() || line.starts_with('#')) {
         return Err(Diagnostic::about(path, "is empty, but a scene has at least `meshes` and `camera`"));
     }
     if let Some(line) = line_nested_too_deeply(&text) {
@@ -25,33 +25,53 @@ pub(super) fn read(path: &Path) -> Result<SceneFile, Diagnostic> {
             "too many brackets are open; a scene needs no more than five",
         ));
     }
-    serde_yaml::from_str(&text).map_err(|error| {
-        let mut message = error.to_string();
-        let Some(location) = error.location() else { return Diagnostic::about(path, message) };
-        message = message.replace(&format!(" at line {} column {}", location.line(), location.column()), "");
-        let line = line_of_word(&text, &message, location.line());
-        let words = text.lines().nth(line - 1).unwrap_or_default().trim_start_matches(' ');
-        if words.starts_with('\t') {
-            message.push_str("; lines must be indented with spaces, not with a tab");
-        }
-        Diagnostic::at(path, line, message)
-    })
+    match serde_yaml::from_str(&text) {
+        Ok(scene) => Ok((scene, text)),
+        Err(error) => Err(diagnostic(path, &text, &error)),
+    }
 }
 
-/// The line of the word that a message is about, if the parser knows only where the list or mapping starts
-/// that has it: so it is with unknown tags and with keys that are there twice.
-fn line_of_word(text: &str, message: &str, start: usize) -> usize {
+fn diagnostic(path: &Path, text: &str, error: &serde_yaml::Error) -> Diagnostic {
+    let mut message = error.to_string();
+    let Some(location) = error.location() else { return Diagnostic::about(path, shortened(&message)) };
+    message = message.replace(&format!(" at line {} column {}", location.line(), location.column()), "");
+    let line = line_to_blame(text, &message, location.line());
+    let words = text.lines().nth(line - 1).unwrap_or_default().trim_start_matches(' ');
+    if words.starts_with('\t') {
+        message.push_str("; lines must be indented with spaces, not with a tab");
+    }
+    Diagnostic::at(path, line, shortened(&message))
+}
+
+/// The message without most of a very long value that it quotes.
+fn shortened(message: &str) -> String {
+    const KEPT: usize = 200;
+    if message.chars().nth(2 * KEPT).is_none() {
+        return message.to_owned();
+    }
+    let characters: Vec<char> = message.chars().collect();
+    let (start, end) = (&characters[..KEPT], &characters[characters.len() - KEPT..]);
+    start.iter().chain(&['…']).chain(end).collect()
+}
+
+/// The line of what a message is about, where the parser gives another one: for unknown tags and for keys that
+/// are there twice it gives the start of the list or mapping, for forbidden characters it gives their offset.
+fn line_to_blame(text: &str, message: &str, given: usize) -> usize {
     let quoted = message.split('`').nth(1);
     let nth_line = |word: String, nth: usize| {
-        let mut lines = text.lines().enumerate().skip(start - 1).filter(|(_, line)| line.contains(&word));
+        let mut lines =
+            text.lines().enumerate().skip(given.saturating_sub(1)).filter(|(_, line)| line.contains(&word));
         lines.nth(nth).map(|(index, _)| index + 1)
     };
     let found = match quoted {
         Some(tag) if message.contains("unknown variant") => nth_line(format!("!{tag}"), 0),
         Some(key) if message.contains("duplicate field") => nth_line(format!("{key}:"), 1),
-        _ => None,
+        _ => message.split_once(" at position ").and_then(|(_, offset)| {
+            let before = text.as_bytes().get(..offset.parse().ok()?)?;
+            Some(before.iter().filter(|byte| **byte == b'\n').count() + 1)
+        }),
     };
-    found.unwrap_or(start)
+    found.unwrap_or(given).max(1)
 }
 
 /// The line in which more brackets are open than [`MAX_DEPTH`].
@@ -74,14 +94,10 @@ fn line_nested_too_deeply(text: &str) -> Option<usize> {
     None
 }
 
-/// Where a scene file names `file`.
+/// The line of a scene file that names `file`.
 ///
-/// The parser keeps no positions, so this looks for the text; a name that was written with escapes is not
-/// found, and the reference is then to the file as a whole.
-pub(super) fn reference_to_mesh(scene: &Path, file: &str) -> Reference {
-    let line = std::fs::read_to_string(scene).ok().and_then(|text| {
-        let names_it = |line: &str| !line.trim_start().starts_with('#') && line.contains(file);
-        text.lines().position(names_it).map(|index| index + 1)
-    });
-    Reference { file: scene.to_owned(), line }
+/// The parser keeps no positions, so this looks for the text. A name that was written with escapes is not found.
+pub(super) fn line_that_names(file: &str, text: &str) -> Option<usize> {
+    let names_it = |line: &str| !line.trim_start().starts_with('#') && line.contains(file);
+    text.lines().position(names_it).map(|index| index + 1)
 }
