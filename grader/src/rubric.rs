@@ -99,11 +99,7 @@ fn two_percent() -> f64 {
 impl Rubric {
     /// Reads the rubric of an assignment.
     pub fn load(path: &Path) -> Result<Self> {
-        let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
-        let rubric: Self = serde_yaml::from_str(&text).map_err(|error| {
-            let line = error.location().map_or(String::new(), |location| format!("{}: ", location.line()));
-            Error::Input(format!("{}:{line}{error}", path.display()))
-        })?;
+        let (rubric, _) = arty::yaml::read::<Self>(path)?;
         rubric.validate().map_err(|message| Error::file(path, message))?;
         Ok(rubric)
     }

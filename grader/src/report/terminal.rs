@@ -16,7 +16,7 @@ pub fn print_summary(report: &Report) {
         println!("The hand-in does not compile:\n\n{}", failure.messages);
     }
     let mut table = Table::new();
-    table.load_preset(UTF8_HORIZONTAL_ONLY).set_header([
+    table.load_style(UTF8_HORIZONTAL_ONLY).set_header([
         "task",
         "",
         "points",

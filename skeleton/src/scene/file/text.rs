@@ -9,7 +9,7 @@ use crate::scene::Diagnostic;
 
 /// Where a file is named that is to be read.
 #[derive(Clone, Debug)]
-pub(super) struct Reference {
+pub(crate) struct Reference {
     /// The file that names it.
     pub(super) file: PathBuf,
     /// The line in which it does.
@@ -61,7 +61,7 @@ pub(super) fn check_readable(
 }
 
 /// Reads a text file of at most `max_bytes`; a byte order mark is dropped.
-pub(super) fn read(path: &Path, max_bytes: u64, named: Option<&Reference>) -> Result<String, Diagnostic> {
+pub(crate) fn read(path: &Path, max_bytes: u64, named: Option<&Reference>) -> Result<String, Diagnostic> {
     check_readable(path, max_bytes, named)?;
     let bytes = std::fs::read(path)
         .map_err(|error| unreadable(path, named, format_args!("cannot be read: {error}")))?;

@@ -1,32 +1,32 @@
-//! YAML: the only module that knows which crate reads it.
+//! Reading YAML: the only module that knows which crate does it.
 
 use std::path::Path;
 
-use super::keys::SceneFile;
-use super::text;
-use crate::scene::Diagnostic;
+use serde::de::DeserializeOwned;
 
-/// More than any scene file written by hand or by a script needs.
+use crate::scene::Diagnostic;
+use crate::scene::file::text;
+
+/// More than any file written by hand or by a script needs.
 const MAX_BYTES: u64 = 4 << 20;
 
-/// Far deeper than the format goes. The parser's time grows with the square of the depth.
+/// Far deeper than any of our formats goes. The parser's time grows with the square of the depth.
 const MAX_DEPTH: usize = 256;
 
-/// Reads a scene file, but none of the files that it names; returns its text too.
-pub(super) fn read(path: &Path) -> Result<(SceneFile, String), Diagnostic> {
+/// Reads a file of at most 4 MiB; returns its text too.
+///
+/// # Errors
+/// The first thing in it that is not what `T` expects, with the line.
+pub fn read<T: DeserializeOwned>(path: &Path) -> Result<(T, String), Diagnostic> {
     let text = text::read(path, MAX_BYTES, None)?;
     if text.lines().all(|line| line.trim().is_empty() || line.starts_with('#')) {
-        return Err(Diagnostic::about(path, "is empty, but a scene has at least `meshes` and `camera`"));
+        return Err(Diagnostic::about(path, "is empty"));
     }
     if let Some(line) = line_nested_too_deeply(&text) {
-        return Err(Diagnostic::at(
-            path,
-            line,
-            "too many brackets are open; a scene needs no more than five",
-        ));
+        return Err(Diagnostic::at(path, line, "too many brackets are open; no more than a few are needed"));
     }
     match serde_yaml::from_str(&text) {
-        Ok(scene) => Ok((scene, text)),
+        Ok(value) => Ok((value, text)),
         Err(error) => Err(diagnostic(path, &text, &error)),
     }
 }
@@ -92,12 +92,4 @@ fn line_nested_too_deeply(text: &str) -> Option<usize> {
         }
     }
     None
-}
-
-/// The line of a scene file that names `file`.
-///
-/// The parser keeps no positions, so this looks for the text. A name that was written with escapes is not found.
-pub(super) fn line_that_names(file: &str, text: &str) -> Option<usize> {
-    let names_it = |line: &str| !line.trim_start().starts_with('#') && line.contains(file);
-    text.lines().position(names_it).map(|index| index + 1)
 }
