@@ -84,12 +84,24 @@ pub(crate) enum Bottom {
 /// A block with its front outside. `foot` is the middle of its lower face; it is turned by `degrees` about
 /// the vertical through it.
 pub(crate) fn block(foot: DVec3, size: DVec3, degrees: f64, bottom: Bottom) -> Surface {
+    tapered_block(foot, size, 1.0, degrees, bottom)
+}
+
+/// A [`block`] that gets narrower upwards: its top is `top_share` as wide and deep as its foot.
+pub(crate) fn tapered_block(
+    foot: DVec3,
+    size: DVec3,
+    top_share: f64,
+    degrees: f64,
+    bottom: Bottom,
+) -> Surface {
     let placed = DAffine3::from_translation(foot) * DAffine3::from_rotation_y(degrees.to_radians());
     // Corner number 4x + 2y + z, each coordinate 0 or 1.
     let positions = (0..8)
         .map(|corner| {
             let [x, y, z] = [corner >> 2 & 1, corner >> 1 & 1, corner & 1].map(f64::from);
-            placed.transform_point3(DVec3::new(x - 0.5, y, z - 0.5) * size)
+            let width = if y == 1.0 { top_share } else { 1.0 };
+            placed.transform_point3(DVec3::new((x - 0.5) * width, y, (z - 0.5) * width) * size)
         })
         .collect();
     let mut faces = vec![

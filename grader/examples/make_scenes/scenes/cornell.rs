@@ -64,7 +64,7 @@ pub(super) fn add_to(collection: &mut Collection) {
     );
     collection.models.push(
         Model::new("cornell_light", "A small light under the ceiling of cornell_room").with(
-            Material::lamp("ceiling_light", [19.0, 16.0, 11.5]),
+            Material::lamp("ceiling_light", [30.0, 25.0, 18.0]),
             ceiling_light([-0.28, 0.28], [-0.22, 0.22]),
         ),
     );

@@ -89,8 +89,8 @@ pub(super) fn add_to(collection: &mut Collection) {
     );
     collection.models.push(
         Model::new("cornell_water_light", "A light under the ceiling of cornell_room").with(
-            Material::lamp("water_light", [10.0, 9.0, 7.0]),
-            cornell::ceiling_light([-0.75, -0.15], [-0.3, 0.3]),
+            Material::lamp("water_light", [9.5, 8.5, 6.5]),
+            cornell::ceiling_light([-0.8, 0.0], [-0.4, 0.4]),
         ),
     );
     collection.scenes.push(SceneFile {

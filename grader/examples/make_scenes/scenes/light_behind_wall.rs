@@ -43,7 +43,7 @@ pub(super) fn add_to(collection: &mut Collection) {
                 rectangle(dvec3(1.15, 1.3, 0.1), DVec3::X * 0.45, DVec3::NEG_Z * 0.6),
             )
             .with(
-                Material::lamp("left_light", [6.5, 6.0, 5.0]),
+                Material::lamp("left_light", [12.0, 11.0, 9.0]),
                 panel(dvec3(-1.55, 2.2, 0.0), DVec3::X, 0.42, 0.35),
             ),
     );
@@ -57,7 +57,7 @@ pub(super) fn add_to(collection: &mut Collection) {
         ],
         models: vec![ModelUse::plain("light_behind_wall")],
         camera: Camera { eye: dvec3(0.0, middle, 7.6), center: dvec3(0.0, middle, 0.0), fov: 41.0 },
-        lights: vec![Light::Point { position: dvec3(1.2, 2.5, 0.2), power: [42.0, 42.0, 42.0] }],
+        lights: vec![Light::Point { position: dvec3(1.2, 2.5, 0.2), power: [30.0, 30.0, 30.0] }],
         max_bounces: 6,
     });
 }

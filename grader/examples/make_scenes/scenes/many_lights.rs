@@ -28,15 +28,15 @@ pub(super) fn add_to(collection: &mut Collection) {
             panel(dvec3(0.0, 2.75, -3.0), DVec3::Z, 6.0, 2.75),
         )
         .with(
-            Material::lamp("tall_lamp", [4.5, 0.9, 1.6]),
+            Material::lamp("tall_lamp", [11.25, 2.25, 4.0]),
             panel_facing(dvec3(-4.2, 1.6, 0.4), dvec3(0.0, 1.0, -0.5), 0.12, 1.1),
         )
         .with(
-            Material::lamp("small_lamp", [60.0, 52.0, 38.0]),
+            Material::lamp("small_lamp", [150.0, 130.0, 95.0]),
             panel_facing(dvec3(-0.7, 3.9, 1.2), dvec3(0.0, 0.5, -0.8), 0.12, 0.12),
         )
         .with(
-            Material::lamp("wide_lamp", [0.35, 0.8, 1.6]),
+            Material::lamp("wide_lamp", [0.88, 2.0, 4.0]),
             panel_facing(dvec3(4.3, 2.6, 1.4), dvec3(0.0, 0.6, -0.5), 1.0, 0.7),
         );
     let pedestal = Model::new("pedestal", "A block to put things on").with(
@@ -80,29 +80,29 @@ pub(super) fn add_to(collection: &mut Collection) {
         models,
         camera: Camera { eye: dvec3(0.0, 2.7, 8.2), center: dvec3(0.0, 1.05, 0.0), fov: 46.0 },
         lights: vec![
-            Light::Point { position: dvec3(-2.0, 2.3, 1.3), power: [6.0, 8.0, 3.0] },
-            Light::Point { position: dvec3(0.9, 0.5, 1.5), power: [5.0, 2.0, 0.8] },
+            Light::Point { position: dvec3(-2.0, 2.3, 1.3), power: [15.0, 20.0, 7.5] },
+            Light::Point { position: dvec3(0.9, 0.5, 1.5), power: [12.5, 5.0, 2.0] },
             Light::Spot {
                 position: dvec3(1.4, 4.2, 1.2),
                 target: dvec3(0.0, 1.3, -1.3),
                 inner: 9.0,
                 outer: 14.0,
-                power: [10.0, 10.0, 11.0],
+                power: [25.0, 25.0, 27.5],
             },
             Light::Spot {
                 position: dvec3(3.2, 3.6, 3.0),
                 target: dvec3(2.5, 0.6, 0.3),
                 inner: 4.0,
                 outer: 22.0,
-                power: [12.0, 5.0, 9.0],
+                power: [30.0, 12.5, 22.5],
             },
             Light::Triangle {
                 corners: [dvec3(-2.5, 3.4, -2.2), dvec3(-1.3, 3.2, -2.2), dvec3(-2.0, 3.9, -1.7)],
-                radiance: [1.0, 5.0, 3.0],
+                radiance: [2.5, 12.5, 7.5],
             },
             Light::Triangle {
                 corners: [dvec3(1.9, 3.3, -2.2), dvec3(2.4, 3.3, -2.2), dvec3(2.2, 3.7, -1.9)],
-                radiance: [9.0, 6.0, 1.5],
+                radiance: [22.5, 15.0, 3.75],
             },
         ],
         max_bounces: 6,

@@ -24,9 +24,9 @@ pub(super) fn add_to(collection: &mut Collection) {
         Model::new("mesh_floor", "A tiled floor and a light above it")
             .with(
                 Material::diffuse("tiles", [1.0, 1.0, 1.0]).textured(TEXTURE),
-                textured(floor(0.0, [-7.0, 7.0], [-7.0, 5.0]), 7.0, 6.0),
+                textured(floor(0.0, [-10.0, 10.0], [-15.0, 5.0]), 10.0, 10.0),
             )
-            .with(Material::lamp("light", [17.0, 16.0, 14.0]), ceiling(5.5, [-2.3, -0.7], [-0.2, 1.4])),
+            .with(Material::lamp("light", [40.0, 38.0, 34.0]), ceiling(5.5, [-2.3, -0.7], [-0.2, 1.4])),
     );
     collection.scenes.push(SceneFile {
         name: "mesh",
@@ -44,7 +44,7 @@ pub(super) fn add_to(collection: &mut Collection) {
             },
             ModelUse::plain("mesh_floor"),
         ],
-        camera: Camera { eye: dvec3(0.0, 3.3, 6.6), center: dvec3(0.0, 1.45, 0.0), fov: 36.0 },
+        camera: Camera { eye: dvec3(0.0, 3.3, 6.6), center: dvec3(0.0, 1.6, 0.0), fov: 41.0 },
         lights: Vec::new(),
         max_bounces: 6,
     });

@@ -24,7 +24,7 @@ pub(super) fn add_to(collection: &mut Collection) {
                 Material::part_mirror("part_mirror", [0.25, 0.35, 0.3], [0.5, 0.5, 0.5]),
                 panel(dvec3(0.3, 1.05, -1.6), dvec3(-0.15, 0.12, 1.0), 1.7, 0.95),
             )
-            .with(Material::lamp("light", [11.0, 10.0, 8.0]), ceiling(3.4, [-0.9, 0.1], [-0.3, 0.7])),
+            .with(Material::lamp("light", [30.0, 27.0, 22.0]), ceiling(3.4, [-0.9, 0.1], [-0.3, 0.7])),
     );
     collection.scenes.push(SceneFile {
         name: "mixed_lights",
@@ -35,7 +35,7 @@ pub(super) fn add_to(collection: &mut Collection) {
         ],
         models: vec![ModelUse::plain("mixed_lights")],
         camera: Camera { eye: dvec3(0.0, 2.2, 6.0), center: dvec3(0.0, 0.8, 0.0), fov: 38.0 },
-        lights: vec![Light::Point { position: dvec3(2.1, 2.2, 1.6), power: [14.0, 16.0, 22.0] }],
+        lights: vec![Light::Point { position: dvec3(2.1, 2.2, 1.6), power: [36.0, 40.0, 54.0] }],
         max_bounces: 6,
     });
 }

@@ -21,7 +21,7 @@ pub(super) fn add_to(collection: &mut Collection) {
         Model::new("plane", "A diffuse plane").with(Material::diffuse("plane", [0.5, 0.5, 0.5]), plane),
     );
     collection.models.push(Model::new("area_plane_light", "A square light that looks down").with(
-        Material::lamp("square_light", [4.0, 4.0, 4.0]),
+        Material::lamp("square_light", [10.0, 10.0, 10.0]),
         ceiling(LIGHT_HEIGHT, [-0.5, 0.5], [-0.5, 0.5]),
     ));
     collection.scenes.push(SceneFile {
@@ -38,7 +38,7 @@ pub(super) fn add_to(collection: &mut Collection) {
     collection.scenes.push(SceneFile {
         name: "area_plane",
         about: &[
-            "A square light of side 1 and radiance 4, two units above a diffuse plane and parallel to it.",
+            "A square light of side 1 and radiance 10, two units above a diffuse plane and parallel to it.",
             "The irradiance has a closed form (configuration factors of four rectangles); the light",
             "reflects nothing, so there is no indirect light. The plane shows irradiance * 0.5 / pi.",
         ],

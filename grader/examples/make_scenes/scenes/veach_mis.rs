@@ -58,7 +58,7 @@ pub(super) fn add_to(collection: &mut Collection) {
     // As many triangles as one of the spheres has: then a light picked at random is as often one of these.
     let fill = tessellated_rectangle(dvec3(0.0, 9.0, 9.0), DVec3::X * 2.5, dvec3(0.0, -0.6, 1.2), 10, 4);
     model = model
-        .with(Material::lamp("fill", [0.35, 0.35, 0.35]), fill)
+        .with(Material::lamp("fill", [0.9, 0.9, 0.9]), fill)
         .with(Material::diffuse("floor", [0.4, 0.4, 0.4]), floor(0.0, [-8.0, 8.0], [-3.0, 11.0]))
         .with(
             Material::diffuse("back_wall", [0.45, 0.43, 0.4]),
