@@ -80,7 +80,7 @@ pub fn grade(
     let total =
         |manual: bool| rubric.tasks.iter().filter(|task| task.manual == manual).map(|task| task.points).sum();
     let points = Points {
-        earned: tasks.iter().filter_map(|task| task.points).sum(),
+        earned: tasks.iter().filter_map(|task| task.points).fold(0.0, |sum, points| sum + points),
         automatic_max: total(false),
         manual_max: total(true),
         max: total(false) + total(true),

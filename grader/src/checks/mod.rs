@@ -189,9 +189,10 @@ fn describe(result: &mut CheckResult, judgement: &Judgement, spec: &CheckSpec) {
             Verdict::Fail,
             Reason::Bias,
             format!(
-                "the mean is {} ({}); an accident as large has a probability below {CONFIRMATION_LEVEL:e}",
-                describe_effect(effect),
-                judgement.region
+                "{} ({}); a correct program differs as much less than once in {:.0} times",
+                if judgement.is_pattern { describe_pattern(effect) } else { describe_effect(effect) },
+                judgement.region,
+                1.0 / CONFIRMATION_LEVEL
             ),
         ),
         Decision::Unbiased => (
@@ -212,18 +213,23 @@ fn describe(result: &mut CheckResult, judgement: &Judgement, spec: &CheckSpec) {
     };
 }
 
+/// What a weighted sum over all tiles says, whose parts have either sign.
+fn describe_pattern(effect: f64) -> String {
+    format!("the means are {:.1} % off, too bright here and too dark there", 100.0 * effect.abs())
+}
+
 /// "12 % too dark", "2.1 times as bright as it should be", "black".
 fn describe_effect(effect: f64) -> String {
     if effect <= -1.0 {
-        "black".to_owned()
+        "the mean is black".to_owned()
     } else if effect < 0.0 {
-        format!("{:.1} % too dark", -100.0 * effect)
+        format!("the mean is {:.1} % too dark", -100.0 * effect)
     } else if effect < 0.5 {
-        format!("{:.1} % too bright", 100.0 * effect)
+        format!("the mean is {:.1} % too bright", 100.0 * effect)
     } else if effect.is_finite() {
-        format!("{:.2} times as bright as it should be", 1.0 + effect)
+        format!("the mean is {:.2} times as bright as it should be", 1.0 + effect)
     } else {
-        "bright where it should be black".to_owned()
+        "the mean is bright where it should be black".to_owned()
     }
 }
 
@@ -233,10 +239,10 @@ mod tests {
 
     #[test]
     fn effects_read_like_sentences() {
-        assert_eq!(describe_effect(-1.0), "black");
-        assert_eq!(describe_effect(-0.123), "12.3 % too dark");
-        assert_eq!(describe_effect(0.02), "2.0 % too bright");
-        assert_eq!(describe_effect(1.0), "2.00 times as bright as it should be");
-        assert_eq!(describe_effect(f64::INFINITY), "bright where it should be black");
+        assert_eq!(describe_effect(-1.0), "the mean is black");
+        assert_eq!(describe_effect(-0.123), "the mean is 12.3 % too dark");
+        assert_eq!(describe_effect(0.02), "the mean is 2.0 % too bright");
+        assert_eq!(describe_effect(1.0), "the mean is 2.00 times as bright as it should be");
+        assert_eq!(describe_effect(f64::INFINITY), "the mean is bright where it should be black");
     }
 }

@@ -1,7 +1,9 @@
 //! The commands of the program.
 
+mod figures;
 mod grade;
 mod reference;
+mod trusted;
 
 use std::process::ExitCode;
 
@@ -19,6 +21,8 @@ struct Arguments {
 enum Command {
     /// Grade one hand-in: build it, run its checks, print points, write report.json.
     Grade(grade::Arguments),
+    /// Render the figures of the sheet with the solution (for staff).
+    Figures(figures::Arguments),
     /// Render the references of scenes with the solution (for staff).
     Reference(reference::Arguments),
 }
@@ -28,6 +32,7 @@ enum Command {
 pub fn run() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Grade(arguments) => grade::run(&arguments),
+        Command::Figures(arguments) => figures::run(&arguments),
         Command::Reference(arguments) => reference::run(&arguments),
     };
     outcome.unwrap_or_else(|error| {

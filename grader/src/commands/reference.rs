@@ -6,11 +6,10 @@ use arty::image::exr::{ExrFile, Precision};
 use arty::integrator::{Settings, Technique};
 use arty::scene::file::load;
 
-use crate::build::{Framework, compile};
+use super::trusted::solution;
 use crate::error::{Error, Result};
 use crate::reference::{self, Effort};
 use crate::rubric::Rubric;
-use crate::submission::Submission;
 use crate::workspace::Workspace;
 
 /// Width and height of the pictures to look at.
@@ -49,9 +48,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     wanted
         .retain(|scene, _| arguments.scenes.is_empty() || arguments.scenes.iter().any(|name| name == scene));
 
-    let solution = Submission::read(&workspace.solution_file())?;
-    let program = compile(&Framework::build(&workspace)?, &solution.source)?
-        .map_err(|failure| Error::Harness(format!("the solution does not compile:\n{}", failure.messages)))?;
+    let program = solution(&workspace)?;
     for (scene, wanted) in wanted {
         eprintln!("{scene} …");
         let description = load(&workspace.scene_file(scene))?.description;

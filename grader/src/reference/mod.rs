@@ -15,7 +15,7 @@ use arty::integrator::Technique;
 use crate::statistics::bias::Expected;
 
 pub use file::{load, save};
-pub use make::{Effort, make, picture};
+pub use make::{Effort, Wanted, make, picture};
 
 /// Width and height of references for judging, in pixels.
 pub const SIZE: (u32, u32) = (16, 16);
