@@ -18,7 +18,7 @@ use crate::reference::{Reference, SIZE};
 use crate::report::{CheckResult, Reason, Verdict};
 use crate::rubric::{CheckKind, CheckSpec, Task};
 use crate::statistics::bias::Expected;
-use crate::statistics::regions::pyramid;
+use crate::statistics::regions::{pyramid, weighted_image};
 use crate::statistics::sequential::{CONFIRMATION_LEVEL, Decision, Demand, Judgement, Question, judge};
 
 /// A scene with all that checks need to know of it.
@@ -70,10 +70,12 @@ impl Bench<'_> {
         expected: &Expected,
     ) -> Result<CheckResult> {
         let start = Instant::now();
-        let regions = pyramid(SIZE.0, SIZE.1);
+        let mut regions = pyramid(SIZE.0, SIZE.1);
+        regions.push(weighted_image(expected));
         let question = Question {
             expected,
             regions: &regions,
+            decisive: regions.len() - 1,
             tolerance: spec.tolerance,
             screening_level: self.screening_level,
             seed: self.seed_of(spec),

@@ -3,6 +3,8 @@
 //! A mistake can darken everything by a percent or one corner by half. Small tiles see the one badly and the other
 //! well, large tiles the other way round; so both are looked at.
 
+use super::bias::Expected;
+
 /// Rec. 709 weights: a fourth channel beside red, green and blue.
 const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
@@ -46,6 +48,37 @@ pub fn pyramid(width: u32, height: u32) -> Vec<Region> {
         }
     }
     regions
+}
+
+/// The whole image, with each pixel weighted by how well a correct estimator knows it.
+///
+/// A plain mean is as noisy as the worst of its pixels, such as those on the edge of a visible light. The best
+/// estimate of a relative error that all pixels share gives pixel p, with the mean m and the relative variance r² of
+/// one sample, a weight on its ratio to m of 1/r². Here it is 1/(r² + r̄²), with the median r̄², so that no pixel
+/// that hardly has any noise outweighs all others.
+pub fn weighted_image(expected: &Expected) -> Region {
+    let luminance = |values: &[f64; 3]| -> f64 { (0..3).map(|c| LUMINANCE[c] * values[c]).sum() };
+    let means: Vec<f64> = expected.mean.iter().map(luminance).collect();
+    let relative_variances: Vec<f64> = expected
+        .sample_variance
+        .iter()
+        .zip(&means)
+        .map(
+            |(variance, &mean)| {
+                if mean > 0.0 { (luminance(&variance.map(f64::sqrt)) / mean).powi(2) } else { 0.0 }
+            },
+        )
+        .collect();
+    let mut sorted: Vec<f64> =
+        relative_variances.iter().zip(&means).filter(|(_, mean)| **mean > 0.0).map(|(r2, _)| *r2).collect();
+    sorted.sort_by(f64::total_cmp);
+    let median = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0).max(1e-12);
+    let weight = |(&r2, &mean): (&f64, &f64)| if mean > 0.0 { 1.0 / (mean * (r2 + median)) } else { 0.0 };
+    let raw: Vec<f64> = relative_variances.iter().zip(&means).map(weight).collect();
+    // As for a tile, the weights of a sum that has the mean of a grey image of that brightness.
+    let total: f64 = raw.iter().sum::<f64>().max(f64::MIN_POSITIVE);
+    let weights = raw.iter().map(|weight| LUMINANCE.map(|channel| channel * weight / total)).collect();
+    Region { name: "whole image".to_owned(), level: 0, weights, is_luminance: false, is_pattern: false }
 }
 
 struct Tile {

@@ -73,8 +73,10 @@ pub struct Judgement {
 pub struct Question<'a> {
     /// What the image should be.
     pub expected: &'a Expected,
-    /// Where to look; the first luminance of level 0 is the whole image.
+    /// Where to look.
     pub regions: &'a [Region],
+    /// Which of them has to be right for a pass: the one whose mean is known best.
+    pub decisive: usize,
     /// The relative bias of the whole image that must be excluded for a pass.
     pub tolerance: f64,
     /// The share of [`SCREENING_LEVEL`] that this question may spend.
@@ -99,7 +101,7 @@ pub fn judge<E>(
     mut render: impl FnMut(&Demand) -> Result<Vec<Vec<[f32; 3]>>, E>,
 ) -> Result<Judgement, E> {
     let pixels = question.expected.mean.len() as u64;
-    let whole = &question.regions[whole_image(question.regions)];
+    let whole = &question.regions[question.decisive];
     let seeds = seeds(question.seed);
     let mut batches = Batches::default();
     let mut taken = 0;
@@ -128,12 +130,12 @@ pub fn judge<E>(
             confirmation_samples += fresh.samples_per_pixel();
             let comparison = Comparison::new(&fresh, question.expected, &screening.suspect);
             let p_value = comparison.one_sided_p_value(screening.suspected_difference);
-            if comparison.trusted && p_value < CONFIRMATION_LEVEL {
+            if p_value < CONFIRMATION_LEVEL {
                 return Ok(judgement(Decision::Biased, &screening.suspect, comparison, confirmation_samples));
             }
         }
         let worst = screening.whole.relative().abs() + screening.whole.relative_margin(PASS_CONFIDENCE);
-        let clear = look >= FIRST_PASS && screening.whole.trusted && worst < question.tolerance;
+        let clear = look >= FIRST_PASS && worst < question.tolerance;
         if clear {
             return Ok(judgement(Decision::Unbiased, whole, screening.whole, confirmation_samples));
         }
@@ -148,11 +150,6 @@ fn seeds(seed: u64) -> Vec<u64> {
     (0..BATCHES).map(|batch| batch_seed(seed, batch)).collect()
 }
 
-/// The luminance of everything.
-fn whole_image(regions: &[Region]) -> usize {
-    regions.iter().position(|region| region.level == 0 && region.is_luminance).unwrap_or(0)
-}
-
 /// All regions at one look.
 struct Screening {
     /// The probability that a correct submission looks this bad somewhere.
@@ -161,7 +158,7 @@ struct Screening {
     suspect: Region,
     /// The difference there.
     suspected_difference: f64,
-    /// The luminance of the whole image.
+    /// The region that has to be right for a pass.
     whole: Comparison,
 }
 
@@ -175,8 +172,7 @@ impl Screening {
         // The worst region of each level, for as many as were tried.
         let mut tests: Vec<(f64, Region, f64)> = Vec::new();
         for level in 0..LEVELS {
-            let tried: Vec<usize> =
-                (0..regions.len()).filter(|&i| regions[i].level == level && comparisons[i].trusted).collect();
+            let tried: Vec<usize> = (0..regions.len()).filter(|&i| regions[i].level == level).collect();
             if let Some(&worst) = tried.iter().min_by(|&&a, &&b| p_values[a].total_cmp(&p_values[b])) {
                 let p_value = smallest_of(tried.len(), p_values[worst]);
                 tests.push((p_value, regions[worst].clone(), comparisons[worst].difference));
@@ -184,15 +180,14 @@ impl Screening {
         }
         // All tiles of the finest level at once, and the pattern of their differences as a region of its own.
         let finest = regions.iter().map(|region| region.level).max().unwrap_or(0);
-        let tiles: Vec<usize> = (0..regions.len())
-            .filter(|&i| regions[i].level == finest && regions[i].is_luminance && comparisons[i].trusted)
-            .collect();
+        let tiles: Vec<usize> =
+            (0..regions.len()).filter(|&i| regions[i].level == finest && regions[i].is_luminance).collect();
         if tiles.len() > 1 {
             let p_value = all_of(&tiles.iter().map(|&i| p_values[i]).collect::<Vec<_>>());
             tests.push((p_value, pattern(regions, &comparisons, &tiles), 1.0));
         }
 
-        let whole = whole_image(regions);
+        let whole = question.decisive;
         // The coarsest region that is flagged says most simply what is wrong; without one, the least likely.
         let count = tests.len() as f64;
         let flagged = |p_value: f64| count * p_value < question.level_of_a_look();
@@ -262,8 +257,14 @@ mod tests {
             third_moment: vec![[2.0; 3]; 256],
         };
         let regions = pyramid(16, 16);
-        let question =
-            Question { expected: &expected, regions: &regions, tolerance: 0.02, screening_level: 0.01, seed };
+        let question = Question {
+            expected: &expected,
+            regions: &regions,
+            decisive: 3,
+            tolerance: 0.02,
+            screening_level: 0.01,
+            seed,
+        };
         judge(&question, exponential(factor, corner_factor)).expect("it cannot fail")
     }
 
