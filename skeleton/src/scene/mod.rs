@@ -5,6 +5,8 @@ mod closed;
 mod description;
 mod diagnostic;
 mod features;
+#[cfg(feature = "files")]
+pub mod file;
 mod hit;
 mod texture;
 

@@ -1,0 +1,250 @@
+//! The keys of a scene file, and which of their values go together.
+
+use std::fmt;
+
+use glam::{DAffine3, Vec3};
+use serde::Deserialize;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Deserializer, Error, MapAccess, Visitor};
+
+use super::checks::{Colour, Number, Vector, bounces, field_of_view, mapping, pixels};
+use super::transform::{Step, compose};
+use crate::scene::{CameraDescription, Defaults, LightDescription};
+
+/// What a scene file says, but for the content of the files that it names.
+pub(super) struct SceneFile {
+    pub(super) meshes: Vec<MeshEntry>,
+    pub(super) camera: CameraDescription,
+    pub(super) lights: Vec<LightDescription>,
+    pub(super) defaults: Defaults,
+}
+
+/// One entry of `meshes`.
+pub(super) struct MeshEntry {
+    /// As written, relative to the scene file.
+    pub(super) file: String,
+    /// Invertible.
+    pub(super) transform: DAffine3,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SceneKeys {
+    meshes: Vec<MeshEntry>,
+    camera: Camera,
+    lights: Option<Vec<Light>>,
+    defaults: Option<DefaultsKeys>,
+}
+
+impl<'de> Deserialize<'de> for SceneFile {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let expected = "a mapping with the keys `meshes`, `camera`, `lights` and `defaults`";
+        mapping::<_, SceneKeys, _>(deserializer, expected)
+    }
+}
+
+impl TryFrom<SceneKeys> for SceneFile {
+    type Error = String;
+    fn try_from(keys: SceneKeys) -> Result<Self, String> {
+        let Camera::Perspective(PerspectiveCamera(camera)) = keys.camera;
+        let lights = keys.lights.unwrap_or_default().into_iter().map(Light::description).collect();
+        let defaults = keys.defaults.map_or_else(Defaults::default, |defaults| Defaults {
+            width: defaults.width,
+            height: defaults.height,
+            max_bounces: defaults.max_bounces,
+        });
+        Ok(Self { meshes: keys.meshes, camera, lights, defaults })
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MeshKeys {
+    file: String,
+    transform: Option<Vec<Step>>,
+}
+
+impl<'de> Deserialize<'de> for MeshEntry {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct MeshVisitor;
+        impl<'de> Visitor<'de> for MeshVisitor {
+            type Value = MeshEntry;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("the name of an OBJ file, or a mapping with the keys `file` and `transform`")
+            }
+            fn visit_str<E: Error>(self, file: &str) -> Result<MeshEntry, E> {
+                Ok(MeshEntry { file: file.to_owned(), transform: DAffine3::IDENTITY })
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<MeshEntry, A::Error> {
+                let keys = MeshKeys::deserialize(MapAccessDeserializer::new(map))?;
+                let transform = compose(&keys.transform.unwrap_or_default()).map_err(A::Error::custom)?;
+                Ok(MeshEntry { file: keys.file, transform })
+            }
+        }
+        deserializer.deserialize_any(MeshVisitor)
+    }
+}
+
+#[derive(Deserialize)]
+enum Camera {
+    #[serde(rename = "perspective_camera")]
+    Perspective(PerspectiveCamera),
+}
+
+struct PerspectiveCamera(CameraDescription);
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CameraKeys {
+    eye: Vector,
+    center: Vector,
+    up: Vector,
+    #[serde(deserialize_with = "field_of_view")]
+    fov: f32,
+}
+
+impl<'de> Deserialize<'de> for PerspectiveCamera {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let expected = "a mapping with the keys `eye`, `center`, `up` and `fov`";
+        mapping::<_, CameraKeys, _>(deserializer, expected)
+    }
+}
+
+impl TryFrom<CameraKeys> for PerspectiveCamera {
+    type Error = String;
+    fn try_from(keys: CameraKeys) -> Result<Self, String> {
+        let (eye, center, up) = (keys.eye.single(), keys.center.single(), keys.up.single());
+        let view = (center.as_dvec3() - eye.as_dvec3())
+            .try_normalize()
+            .ok_or("`eye` and `center` are the same point, so the camera looks nowhere")?;
+        let upwards = up.as_dvec3().try_normalize().ok_or("`up` must not be zero")?;
+        // The sine of the angle between them. Below this, rounding would decide how the picture is turned.
+        if view.cross(upwards).length() < 1e-5 {
+            return Err("`up` must not be parallel to the direction from `eye` to `center`".into());
+        }
+        Ok(Self(CameraDescription { eye, center, up, fov: keys.fov }))
+    }
+}
+
+#[derive(Deserialize)]
+enum Light {
+    #[serde(rename = "point_light")]
+    Point(PointLight),
+    #[serde(rename = "spot_light")]
+    Spot(SpotLight),
+    #[serde(rename = "triangle_light")]
+    Triangle(TriangleLight),
+}
+
+impl Light {
+    fn description(self) -> LightDescription {
+        match self {
+            Self::Point(PointLight(light))
+            | Self::Spot(SpotLight(light))
+            | Self::Triangle(TriangleLight(light)) => light,
+        }
+    }
+}
+
+struct PointLight(LightDescription);
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PointLightKeys {
+    position: Vector,
+    color: Colour,
+}
+
+impl<'de> Deserialize<'de> for PointLight {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        mapping::<_, PointLightKeys, _>(deserializer, "a mapping with the keys `position` and `color`")
+    }
+}
+
+impl TryFrom<PointLightKeys> for PointLight {
+    type Error = String;
+    fn try_from(keys: PointLightKeys) -> Result<Self, String> {
+        Ok(Self(LightDescription::Point { position: keys.position.single(), power: keys.color.into() }))
+    }
+}
+
+struct SpotLight(LightDescription);
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SpotLightKeys {
+    position: Vector,
+    direction: Vector,
+    inner: Number,
+    outer: Number,
+    color: Colour,
+}
+
+impl<'de> Deserialize<'de> for SpotLight {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let expected = "a mapping with the keys `position`, `direction`, `inner`, `outer` and `color`";
+        mapping::<_, SpotLightKeys, _>(deserializer, expected)
+    }
+}
+
+impl TryFrom<SpotLightKeys> for SpotLight {
+    type Error = String;
+    fn try_from(keys: SpotLightKeys) -> Result<Self, String> {
+        let direction = keys.direction.single();
+        if direction == Vec3::ZERO {
+            return Err("`direction` must not be zero".into());
+        }
+        let (inner, outer) = (keys.inner.get() as f32, keys.outer.get() as f32);
+        if !(0.0 <= inner && inner <= outer && 0.0 < outer && outer <= 180.0) {
+            return Err(format!(
+                "`inner` is {inner} and `outer` is {outer}, but they are angles from the axis in degrees with \
+                 0 <= inner <= outer, 0 < outer <= 180"
+            ));
+        }
+        let (position, power) = (keys.position.single(), keys.color.into());
+        Ok(Self(LightDescription::Spot { position, direction, inner, outer, power }))
+    }
+}
+
+struct TriangleLight(LightDescription);
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TriangleLightKeys {
+    v0: Vector,
+    v1: Vector,
+    v2: Vector,
+    color: Colour,
+}
+
+impl<'de> Deserialize<'de> for TriangleLight {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let expected = "a mapping with the keys `v0`, `v1`, `v2` and `color`";
+        mapping::<_, TriangleLightKeys, _>(deserializer, expected)
+    }
+}
+
+impl TryFrom<TriangleLightKeys> for TriangleLight {
+    type Error = String;
+    fn try_from(keys: TriangleLightKeys) -> Result<Self, String> {
+        let vertices = [keys.v0.single(), keys.v1.single(), keys.v2.single()];
+        let [a, b, c] = vertices.map(|vertex| vertex.as_dvec3());
+        let (ab, ac) = (b - a, c - a);
+        // Corners on a line that is not along an axis leave an area of the size of their rounding.
+        if ab.cross(ac).length() <= 1e-7 * ab.length() * ac.length() || b == c {
+            return Err("the triangle has no area: `v0`, `v1` and `v2` are on one line".into());
+        }
+        Ok(Self(LightDescription::Triangle { vertices, radiance: keys.color.into() }))
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DefaultsKeys {
+    #[serde(default, deserialize_with = "pixels")]
+    width: Option<u32>,
+    #[serde(default, deserialize_with = "pixels")]
+    height: Option<u32>,
+    #[serde(default, deserialize_with = "bounces")]
+    max_bounces: Option<u32>,
+}

@@ -1,0 +1,235 @@
+//! MTL: what materials are said to be, value by value.
+//!
+//! Not by `tobj`: it knows no `Tf`, no lines and no wrong values, and panics at a colour of two numbers.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use super::text::{self, Reference, Statement, statements};
+use super::warnings::Warnings;
+use crate::math::Rgb;
+use crate::scene::Diagnostic;
+
+const MAX_BYTES: u64 = 64 << 20;
+
+/// The statements of one material; `None` for those that are missing.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Definition {
+    /// The line of `newmtl`.
+    pub(super) line: usize,
+    pub(super) kd: Option<Rgb>,
+    pub(super) ks: Option<Rgb>,
+    pub(super) ke: Option<Rgb>,
+    pub(super) tf: Option<Rgb>,
+    pub(super) ns: Option<f32>,
+    /// With its line.
+    pub(super) ni: Option<(usize, f32)>,
+    /// In 0..=10.
+    pub(super) illum: Option<u8>,
+    /// The name of an image, with its line.
+    pub(super) map_kd: Option<(usize, String)>,
+}
+
+/// The materials of an MTL file by name.
+pub(super) type Definitions = HashMap<String, Definition>;
+
+/// Statements that have no meaning for the materials of this renderer: ambient colour, transparency without
+/// refraction, and parameters of other models that are written beside those read here.
+const HARMLESS: [&str; 15] = [
+    "Ka",
+    "map_Ka",
+    "Tr",
+    "d",
+    "Km",
+    "Pr",
+    "Pm",
+    "Ps",
+    "Pc",
+    "Pcr",
+    "aniso",
+    "anisor",
+    "sharpness",
+    "map_aat",
+    "interpolateMode",
+];
+
+/// Options of a map and how many words follow them at most.
+const MAP_OPTIONS: [(&str, usize); 14] = [
+    ("-blendu", 1),
+    ("-blendv", 1),
+    ("-boost", 1),
+    ("-bm", 1),
+    ("-cc", 1),
+    ("-clamp", 1),
+    ("-colorspace", 1),
+    ("-imfchan", 1),
+    ("-mm", 2),
+    ("-o", 3),
+    ("-s", 3),
+    ("-t", 3),
+    ("-texres", 1),
+    ("-type", 1),
+];
+
+/// Reads an MTL file, but not the images that it names.
+pub(super) fn read(
+    file: &Path,
+    named: &Reference,
+    warnings: &mut Warnings,
+) -> Result<Definitions, Diagnostic> {
+    let text = text::read(file, MAX_BYTES, Some(named))?;
+    let mut definitions = Definitions::new();
+    let mut current: Option<(&str, Definition)> = None;
+    for statement in statements(&text) {
+        if statement.keyword == "newmtl" {
+            let name = statement.arguments;
+            if name.is_empty() {
+                let message = "`newmtl` must be followed by the name of the material";
+                return Err(Diagnostic::at(file, statement.line, message));
+            }
+            let next = (name, Definition { line: statement.line, ..Definition::default() });
+            keep(current.replace(next), &mut definitions, file, warnings);
+            continue;
+        }
+        let Some((_, definition)) = &mut current else {
+            let message = format!("`{}` stands before the first `newmtl`", statement.keyword);
+            return Err(Diagnostic::at(file, statement.line, message));
+        };
+        definition
+            .take(&statement, file, warnings)
+            .map_err(|message| Diagnostic::at(file, statement.line, message))?;
+    }
+    keep(current, &mut definitions, file, warnings);
+    Ok(definitions)
+}
+
+fn keep(
+    finished: Option<(&str, Definition)>,
+    definitions: &mut Definitions,
+    file: &Path,
+    warnings: &mut Warnings,
+) {
+    let Some((name, definition)) = finished else { return };
+    let line = definition.line;
+    if let Some(former) = definitions.insert(name.to_owned(), definition) {
+        let message =
+            format!("the material `{name}` is also defined in line {}; this one is used", former.line);
+        warnings.add(Diagnostic::at(file, line, message));
+    }
+}
+
+impl Definition {
+    /// Takes one statement; an error says what is wrong with it.
+    fn take(
+        &mut self,
+        statement: &Statement<'_>,
+        file: &Path,
+        warnings: &mut Warnings,
+    ) -> Result<(), String> {
+        match statement.keyword {
+            "Kd" => self.kd = Some(colour(statement)?),
+            "Ks" => self.ks = Some(colour(statement)?),
+            "Ke" => self.ke = Some(colour(statement)?),
+            "Tf" => self.tf = Some(colour(statement)?),
+            "Ns" => self.ns = Some(single(statement)?),
+            "Ni" => self.ni = Some((statement.line, single(statement)?)),
+            "illum" => self.illum = Some(illumination_model(statement)?),
+            "map_Kd" => {
+                let (name, has_options) = without_options(statement.arguments);
+                if name.is_empty() {
+                    return Err("`map_Kd` must be followed by the name of an image".into());
+                }
+                if has_options {
+                    let message = "the options of `map_Kd` are ignored: the image is used as it is";
+                    warnings.add(Diagnostic::at(file, statement.line, message));
+                }
+                self.map_kd = Some((statement.line, name.to_owned()));
+            }
+            keyword if HARMLESS.contains(&keyword) => {}
+            keyword => {
+                let message = format!("`{keyword}` is ignored: this renderer does not know it");
+                warnings.once((file, keyword), Diagnostic::at(file, statement.line, message));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// One number for all channels or one for each, none of them negative.
+fn colour(statement: &Statement<'_>) -> Result<Rgb, String> {
+    match numbers(statement, "3 numbers")?[..] {
+        [value] => Ok(Rgb::gray(value)),
+        [r, g, b] => Ok(Rgb::new(r, g, b)),
+        ref other => Err(format!("`{}` wants 3 numbers, but has {}", statement.keyword, other.len())),
+    }
+}
+
+/// One number that is not negative.
+fn single(statement: &Statement<'_>) -> Result<f32, String> {
+    match numbers(statement, "one number")?[..] {
+        [value] => Ok(value),
+        ref other => Err(format!("`{}` wants one number, but has {}", statement.keyword, other.len())),
+    }
+}
+
+fn numbers(statement: &Statement<'_>, expected: &str) -> Result<Vec<f32>, String> {
+    let keyword = statement.keyword;
+    let number = |word: &str| match word.parse::<f32>() {
+        Ok(value) if !value.is_finite() => {
+            Err(format!("`{keyword}` has the number `{word}`, which is not finite"))
+        }
+        Ok(value) if value < 0.0 => {
+            Err(format!("`{keyword}` has the number `{word}`, but must not be negative"))
+        }
+        Ok(value) => Ok(value),
+        Err(_) => Err(format!("`{keyword}` wants {expected}, but `{word}` is none")),
+    };
+    statement.uncommented().split_ascii_whitespace().map(number).collect()
+}
+
+fn illumination_model(statement: &Statement<'_>) -> Result<u8, String> {
+    let argument = statement.uncommented();
+    argument
+        .parse()
+        .ok()
+        .filter(|model| *model <= 10)
+        .ok_or_else(|| format!("`illum` wants a whole number from 0 to 10, but has `{argument}`"))
+}
+
+/// The file name in the arguments of a map, and whether there were options before it.
+fn without_options(arguments: &str) -> (&str, bool) {
+    let mut rest = arguments;
+    let mut found = false;
+    while let Some(&(_, most)) = MAP_OPTIONS.iter().find(|(option, _)| first_word(rest).0 == *option) {
+        found = true;
+        rest = first_word(rest).1;
+        for number in 0..most {
+            let (word, after) = first_word(rest);
+            // `-o`, `-s` and `-t` may have fewer numbers than three; the others have words that are no numbers.
+            if most == 3 && number > 0 && word.parse::<f32>().is_err() {
+                break;
+            }
+            rest = after;
+        }
+    }
+    (rest, found)
+}
+
+fn first_word(text: &str) -> (&str, &str) {
+    let end = text.find(|character: char| character.is_ascii_whitespace()).unwrap_or(text.len());
+    let (word, rest) = text.split_at(end);
+    (word, rest.trim_ascii_start())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn options_of_a_map_are_not_part_of_its_name() {
+        assert_eq!(without_options("wood planks.png"), ("wood planks.png", false));
+        assert_eq!(without_options("-s 2 2 wood.png"), ("wood.png", true));
+        assert_eq!(without_options("-clamp on -o 1 2 3 -mm 0 1 wood planks.png"), ("wood planks.png", true));
+        assert_eq!(without_options("-s"), ("", true));
+    }
+}
