@@ -145,7 +145,7 @@ impl Provenance {
         let anomalies = film.anomalies();
         let results = [
             ("arty:samples_per_pixel", film.samples().to_string()),
-            ("arty:render_seconds", format!("{:.3}", rendering.elapsed.as_secs_f64())),
+            ("arty:render_seconds", format!("{:.6}", rendering.elapsed.as_secs_f64())),
             ("arty:non_finite", anomalies.non_finite.to_string()),
             ("arty:negative", anomalies.negative.to_string()),
             ("arty:interrupted", rendering.interrupted.to_string()),

@@ -72,7 +72,7 @@ impl fmt::Display for Rendering {
         }
         let seconds = self.elapsed.as_secs_f64();
         let samples = counted(most, "sample");
-        write!(f, "{samples} per pixel in {seconds:.1} s, {}", speed(all as f64 / seconds.max(1e-9)))
+        write!(f, "{samples} per pixel in {seconds:.2} s, {}", speed(all as f64 / seconds.max(1e-9)))
     }
 }
 
