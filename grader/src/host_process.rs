@@ -147,7 +147,8 @@ fn unexpected<T>(response: Response) -> Answer<T> {
 }
 
 fn check_shape(rendered: Rendered, batches: usize, pixels: usize) -> std::result::Result<Rendered, Fault> {
-    let whole = rendered.batches.len() == batches && rendered.batches.iter().all(|batch| batch.len() == pixels);
+    let whole =
+        rendered.batches.len() == batches && rendered.batches.iter().all(|batch| batch.len() == pixels);
     if !whole {
         return Err(Fault::Malformed("the number of batches or pixels is wrong".to_owned()));
     }

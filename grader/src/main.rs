@@ -1,2 +1,5 @@
-//! x
-fn main() {}
+//! The grader as a program.
+
+fn main() -> std::process::ExitCode {
+    grader::commands::run()
+}

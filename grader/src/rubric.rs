@@ -99,11 +99,7 @@ fn two_percent() -> f64 {
 impl Rubric {
     /// Reads the rubric of an assignment.
     pub fn load(path: &Path) -> Result<Self> {
-        let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
-        let rubric: Self = serde_yaml::from_str(&text).map_err(|error| {
-            let line = error.location().map_or(String::new(), |location| format!("{}: ", location.line()));
-            Error::Input(format!("{}:{line}{error}", path.display()))
-        })?;
+        let (rubric, _) = arty::yaml::read::<Self>(path)?;
         rubric.validate().map_err(|message| Error::file(path, message))?;
         Ok(rubric)
     }
@@ -118,7 +114,9 @@ impl Rubric {
                 return Err(format!("task {id}: either `manual: true` or a list of `checks`"));
             }
             if !task.manual && !task.checks.iter().any(|check| check.evidence) {
-                return Err(format!("task {id}: at least one check with `evidence: true`, or an untouched file earns points"));
+                return Err(format!(
+                    "task {id}: at least one check with `evidence: true`, or an untouched file earns points"
+                ));
             }
             for check in &task.checks {
                 if !(check.weight.is_finite() && check.weight > 0.0) {
@@ -165,7 +163,9 @@ mod tests {
 
     #[test]
     fn a_wrong_rubric_is_one_clear_error() {
-        let task = |rest: &str| format!("assignment: a\ntitle: t\ntasks:\n- {{id: x, title: t, points: 1, {rest}}}\n");
+        let task = |rest: &str| {
+            format!("assignment: a\ntitle: t\ntasks:\n- {{id: x, title: t, points: 1, {rest}}}\n")
+        };
         for (text, expected) in [
             (task("manual: false"), "either `manual: true` or a list of `checks`"),
             (task(&format!("checks: [{CHECK}}}]")), "evidence: true"),

@@ -13,14 +13,19 @@ pub struct Workspace {
 impl Workspace {
     /// The checkout that holds the current folder, or else the one that this program was built from.
     pub fn find() -> Result<Self> {
-        let current = std::env::current_dir().map_err(|error| Error::Harness(format!("no current folder: {error}")))?;
+        let current =
+            std::env::current_dir().map_err(|error| Error::Harness(format!("no current folder: {error}")))?;
         let built_from = Path::new(env!("CARGO_MANIFEST_DIR"));
         current
             .ancestors()
             .chain(built_from.ancestors())
             .find(|folder| folder.join("skeleton/Cargo.toml").is_file() && folder.join("scenes").is_dir())
             .map(|root| Self { root: root.to_owned() })
-            .ok_or_else(|| Error::Input("run the grader inside a checkout of arty (no skeleton/ and scenes/ found)".into()))
+            .ok_or_else(|| {
+                Error::Input(
+                    "run the grader inside a checkout of arty (no skeleton/ and scenes/ found)".into(),
+                )
+            })
     }
 
     /// The folder of the checkout.

@@ -21,6 +21,7 @@ pub trait Integrator: Sync {
 
 /// How a path tracer looks for light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Technique {
     /// By hitting it by chance: directions are drawn from the BSDF alone.

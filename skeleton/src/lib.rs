@@ -41,3 +41,5 @@ pub mod render;
 pub mod sampler;
 pub mod scene;
 pub mod srgb;
+#[cfg(feature = "files")]
+pub mod yaml;

@@ -13,8 +13,10 @@ type Case = (&'static str, Option<usize>, &'static [&'static str]);
 
 #[rustfmt::skip]
 const CASES: &[Case] = &[
-    ("empty.yml", None, &["is empty", "`meshes`"]),
-    ("only_a_comment.yml", None, &["meshes"]),
+    ("empty.yml", None, &["is empty"]),
+    ("only_a_comment.yml", None, &["is empty"]),
+    ("control_character.yml", Some(2), &["control characters"]),
+    ("very_long_value.yml", Some(2), &["camera.fov", "…", "angle of view"]),
     ("not_utf8.yml", Some(2), &["UTF-8"]),
     ("syntax.yml", None, &[]),
     ("tab_indent.yml", Some(2), &["tab"]),

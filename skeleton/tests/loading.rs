@@ -148,7 +148,7 @@ fn steps_of_a_transform_apply_in_the_order_given() {
     assert_eq!(first_x("!scale 2, !translate [0, 1, 0]"), Vec3::new(2.0, 1.0, 0.0));
     assert_eq!(first_x("!translate [0, 1, 0], !scale [2, 3, 4]"), Vec3::new(2.0, 3.0, 0.0));
     assert!(close(first_x("!rotate { axis: [0, 0, 2], degrees: 90 }"), Vec3::Y));
-    assert_eq!(first_x("!matrix [0,0,0,5, 1,0,0,6, 0,1,1,7, 0,0,0,1]"), Vec3::new(5.0, 7.0, 7.0));
+    assert_eq!(first_x("!matrix [0,0,1,5, 1,0,0,6, 0,1,0,7, 0,0,0,1]"), Vec3::new(5.0, 7.0, 7.0));
     assert_eq!(first_x(""), Vec3::X);
 }
 
@@ -215,7 +215,7 @@ fn polygons_become_fans_that_keep_their_attributes_and_materials() {
         .collect();
     assert_eq!(names, ["a", "a", "a", "a", "b"]);
     let lines: Vec<_> = loaded.warnings.iter().map(|warning| warning.line).collect();
-    assert_eq!(lines, [Some(16), Some(17)], "{:?}", loaded.warnings);
+    assert_eq!(lines, [Some(17), Some(18)], "{:?}", loaded.warnings);
 }
 
 #[test]

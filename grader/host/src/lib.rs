@@ -10,4 +10,4 @@ mod render;
 mod serve;
 mod stdio;
 
-pub use serve::serve;
+pub use serve::{Constructor, serve};

@@ -33,17 +33,22 @@ pub struct BuildFailure {
 }
 
 /// Compiles the source of a hand-in. The outer error is the harness's, the inner one the hand-in's.
-pub fn compile(framework: &Framework, source: &str) -> Result<std::result::Result<HandInProgram, BuildFailure>> {
+pub fn compile(
+    framework: &Framework,
+    source: &str,
+) -> Result<std::result::Result<HandInProgram, BuildFailure>> {
     let trouble = |what: &str, error: std::io::Error| Error::Harness(format!("{what}: {error}"));
     let folder = tempfile::Builder::new()
         .prefix("arty-hand-in-")
         .tempdir()
         .map_err(|error| trouble("no temporary folder", error))?;
     for (name, text) in [("main.rs", PROGRAM), ("render_pt.rs", source)] {
-        std::fs::write(folder.path().join(name), text).map_err(|error| trouble("the hand-in cannot be copied", error))?;
+        std::fs::write(folder.path().join(name), text)
+            .map_err(|error| trouble("the hand-in cannot be copied", error))?;
     }
     let start = Instant::now();
-    let output = rustc(framework, folder.path()).output().map_err(|error| trouble("rustc could not be run", error))?;
+    let output =
+        call(framework, folder.path()).output().map_err(|error| trouble("rustc could not be run", error))?;
     let compile_time = start.elapsed();
     if output.status.success() {
         let executable = folder.path().join(executable_name());
@@ -58,7 +63,7 @@ fn executable_name() -> String {
 }
 
 /// The call. No link-time optimisation: it would make a tenth of a second into several, for a tenth more speed.
-fn rustc(framework: &Framework, folder: &Path) -> Command {
+fn call(framework: &Framework, folder: &Path) -> Command {
     let external = |name: &str, library: &Path| {
         let mut argument = std::ffi::OsString::from(format!("{name}="));
         argument.push(library);
@@ -66,7 +71,7 @@ fn rustc(framework: &Framework, folder: &Path) -> Command {
     };
     let mut dependencies = std::ffi::OsString::from("dependency=");
     dependencies.push(&framework.dependencies);
-    let mut command = Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()));
+    let mut command = super::framework::rustc();
     command
         .args(["main.rs", "--crate-name", "hand_in", "--edition", "2024", "--crate-type", "bin", "-o"])
         .arg(executable_name())

@@ -19,6 +19,8 @@ pub struct Framework {
     pub host: PathBuf,
     /// The folder with these and all that they need.
     pub dependencies: PathBuf,
+    /// The compiler, as it names itself.
+    pub toolchain: String,
 }
 
 /// The part of Cargo's messages that names what was built.
@@ -68,8 +70,22 @@ impl Framework {
         let (arty, host) = (library("arty")?, library("host")?);
         // Cargo names the copy beside the profile's programs; the libraries it needs lie in `deps`.
         let dependencies = dependencies_folder(&arty);
-        Ok(Self { arty, host, dependencies })
+        Ok(Self { arty, host, dependencies, toolchain: toolchain()? })
     }
+}
+
+/// The first line of `rustc --version`.
+fn toolchain() -> Result<String> {
+    let output = rustc()
+        .arg("--version")
+        .output()
+        .map_err(|error| Error::Harness(format!("rustc could not be run: {error}")))?;
+    Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned())
+}
+
+/// The compiler that Cargo would use.
+pub(super) fn rustc() -> Command {
+    Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()))
 }
 
 fn dependencies_folder(library: &Path) -> PathBuf {

@@ -111,8 +111,8 @@ fn from_image(image: &Image) -> Vec<[f64; 3]> {
 
 #[cfg(test)]
 mod tests {
-    use arty::scene::{CameraDescription, Defaults};
     use arty::math::Vec3;
+    use arty::scene::{CameraDescription, Defaults};
 
     use super::*;
 
@@ -129,8 +129,13 @@ mod tests {
 
     fn reference() -> Reference {
         let pixels = |value: f64| (0..256).map(|i| [value, f64::from(i), 0.5]).collect::<Vec<_>>();
-        let techniques = BTreeMap::from([("nee", Moments { deviation: pixels(2.0), skewness: pixels(-1.0) })]);
-        let light = |value| Light { mean: pixels(value), variance_of_mean: pixels(0.25), techniques: techniques.clone() };
+        let techniques =
+            BTreeMap::from([("nee", Moments { deviation: pixels(2.0), skewness: pixels(-1.0) })]);
+        let light = |value| Light {
+            mean: pixels(value),
+            variance_of_mean: pixels(0.25),
+            techniques: techniques.clone(),
+        };
         Reference {
             scene_hash: scene(40.0).hash(),
             by_bounces: BTreeMap::from([(1, light(1.0)), (8, light(8.0))]),
@@ -150,7 +155,8 @@ mod tests {
     fn a_reference_of_another_scene_is_refused_with_the_command_that_renews_it() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let path = folder.path().join("box.exr");
-        let message = |scene: SceneDescription| load(&path, "box", &scene).expect_err("it is refused").to_string();
+        let message =
+            |scene: SceneDescription| load(&path, "box", &scene).expect_err("it is refused").to_string();
         assert!(message(scene(40.0)).contains("cargo grader reference box"), "there is none");
         save(&reference(), &path).expect("it can be saved");
         let stale = message(scene(41.0));

@@ -96,7 +96,8 @@ struct Renderer {
 impl Renderer {
     fn start(program: &HandInProgram, description: &SceneDescription) -> Result<Self> {
         let mut process = HostProcess::start(program, rayon::current_num_threads())?;
-        let scene = process.load(description)?.map_err(|fault| Error::Harness(format!("the solution: {fault}")))?;
+        let scene =
+            process.load(description)?.map_err(|fault| Error::Harness(format!("the solution: {fault}")))?;
         Ok(Self { process, scene })
     }
 
@@ -114,12 +115,24 @@ impl Renderer {
         let per_job = (8_000_000 / (pixels * samples)).max(1) as usize;
         let mut means = Vec::with_capacity(batches as usize);
         for seeds in seeds.chunks(per_job) {
-            let job = RenderJob { scene: self.scene, settings, width, height, seeds: seeds.to_vec(), first_sample: 0, samples };
-            let rendered =
-                self.process.render(&job)?.map_err(|fault| Error::Harness(format!("the solution: {fault}")))?;
+            let job = RenderJob {
+                scene: self.scene,
+                settings,
+                width,
+                height,
+                seeds: seeds.to_vec(),
+                first_sample: 0,
+                samples,
+            };
+            let rendered = self
+                .process
+                .render(&job)?
+                .map_err(|fault| Error::Harness(format!("the solution: {fault}")))?;
             if rendered.non_finite + rendered.negative > 0 {
                 let what = format!("{:?}", rendered.first_anomalies.first());
-                return Err(Error::Harness(format!("the solution gave samples that are no radiance: {what}")));
+                return Err(Error::Harness(format!(
+                    "the solution gave samples that are no radiance: {what}"
+                )));
             }
             means.extend(rendered.batches);
         }
@@ -152,8 +165,10 @@ fn moments(samples: &[Vec<[f32; 3]>]) -> Moments {
             if mean == 0.0 || sigma == 0.0 {
                 continue;
             }
-            let cubes: f64 =
-                samples.iter().map(|sample| ((f64::from(sample[pixel][channel]) - mean) / sigma).powi(3)).sum();
+            let cubes: f64 = samples
+                .iter()
+                .map(|sample| ((f64::from(sample[pixel][channel]) - mean) / sigma).powi(3))
+                .sum();
             moments.deviation[pixel][channel] = sigma / mean;
             moments.skewness[pixel][channel] = cubes / count;
         }

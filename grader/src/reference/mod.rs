@@ -15,7 +15,7 @@ use arty::integrator::Technique;
 use crate::statistics::bias::Expected;
 
 pub use file::{load, save};
-pub use make::{Effort, make, picture};
+pub use make::{Effort, Wanted, make, picture};
 
 /// Width and height of references for judging, in pixels.
 pub const SIZE: (u32, u32) = (16, 16);
@@ -58,7 +58,8 @@ impl Light {
         let per_value = |f: &dyn Fn(usize, usize) -> f64| -> Vec<[f64; 3]> {
             (0..self.mean.len()).map(|pixel| std::array::from_fn(|channel| f(pixel, channel))).collect()
         };
-        let deviation = |pixel: usize, channel: usize| moments.deviation[pixel][channel] * self.mean[pixel][channel];
+        let deviation =
+            |pixel: usize, channel: usize| moments.deviation[pixel][channel] * self.mean[pixel][channel];
         Some(Expected {
             mean: self.mean.clone(),
             variance_of_mean: self.variance_of_mean.clone(),

@@ -28,8 +28,8 @@ pub struct Comparison {
     pub difference: f64,
     /// Standard error of that difference.
     pub standard_error: f64,
-    /// The expected mean.
-    pub expected: f64,
+    /// What the difference is relative to: the expected mean, with all weights taken as positive.
+    pub scale: f64,
     /// Degrees of freedom of the standard error.
     pub freedom: f64,
     /// False if a correct estimator is so skewed here that its mean of this many samples is not yet normal enough
@@ -50,7 +50,7 @@ impl Comparison {
 
         // Pixels are independent of each other, channels of one pixel are not: in the worst case they vary as one.
         let samples = batches.samples_per_pixel() as f64;
-        let mut expected_mean = 0.0;
+        let (mut expected_mean, mut scale) = (0.0, 0.0);
         let (mut reference_variance, mut floor, mut third_moment) = (0.0, 0.0, 0.0);
         for (pixel, weights) in region.weights.iter().enumerate() {
             if *weights == [0.0; 3] {
@@ -58,6 +58,7 @@ impl Comparison {
             }
             let sum = |values: &[f64; 3]| -> f64 { (0..3).map(|c| weights[c].abs() * values[c]).sum() };
             expected_mean += (0..3).map(|c| weights[c] * expected.mean[pixel][c]).sum::<f64>();
+            scale += sum(&expected.mean[pixel]);
             reference_variance += sum(&expected.variance_of_mean[pixel].map(f64::sqrt)).powi(2);
             floor += sum(&expected.sample_variance[pixel].map(f64::sqrt)).powi(2);
             third_moment += sum(&expected.third_moment[pixel].map(|moment| moment.max(0.0).cbrt())).powi(3);
@@ -66,7 +67,7 @@ impl Comparison {
         Self {
             difference: mean - expected_mean,
             standard_error: ((spread / count).max(floor / samples) + reference_variance).sqrt(),
-            expected: expected_mean,
+            scale,
             freedom: (count - 1.0).max(1.0),
             trusted: samples >= 154.0 * skewness * skewness,
         }
@@ -74,7 +75,7 @@ impl Comparison {
 
     /// |difference| beyond rounding, in standard errors. Zero if there is no difference beyond rounding.
     pub fn t(&self) -> f64 {
-        let excess = (self.difference.abs() - TOLERATED * self.expected.abs()).max(0.0);
+        let excess = (self.difference.abs() - TOLERATED * self.scale).max(0.0);
         if excess == 0.0 { 0.0 } else { excess / self.standard_error }
     }
 
@@ -88,26 +89,26 @@ impl Comparison {
         if self.difference * direction > 0.0 { upper_tail(self.t(), self.freedom) } else { 1.0 }
     }
 
-    /// Difference relative to the expected mean.
+    /// Difference relative to [`scale`](Self::scale).
     pub fn relative(&self) -> f64 {
-        ratio(self.difference, self.expected)
+        ratio(self.difference, self.scale)
     }
 
     /// Half the width of the interval that holds the relative difference with the given confidence.
     pub fn relative_margin(&self, confidence: f64) -> f64 {
-        ratio(quantile(0.5 + 0.5 * confidence, self.freedom) * self.standard_error, self.expected).abs()
+        ratio(quantile(0.5 + 0.5 * confidence, self.freedom) * self.standard_error, self.scale)
     }
 
     /// The smallest relative bias that a test at level `alpha` finds with probability 0.99.
     pub fn detectable(&self, alpha: f64) -> f64 {
         let margin = quantile(1.0 - 0.5 * alpha, self.freedom) + quantile(0.99, self.freedom);
-        TOLERATED + ratio(margin * self.standard_error, self.expected).abs()
+        TOLERATED + ratio(margin * self.standard_error, self.scale)
     }
 }
 
 /// 0/0 is no difference at all; x/0 is beyond any measure.
-fn ratio(value: f64, expected: f64) -> f64 {
-    if value == 0.0 { 0.0 } else { value / expected.abs() }
+fn ratio(value: f64, scale: f64) -> f64 {
+    if value == 0.0 { 0.0 } else { value / scale }
 }
 
 /// P(T ≥ t) of Student's distribution.
@@ -133,7 +134,8 @@ pub fn smallest_of(count: usize, p: f64) -> f64 {
 /// The p-value of many independent p-values at once: the sum of the squares of the normal deviates that are as
 /// unlikely (χ²). It sees what is a little wrong everywhere.
 pub fn all_of(p_values: &[f64]) -> f64 {
-    let (Ok(normal), Ok(chi_squared)) = (Normal::new(0.0, 1.0), ChiSquared::new(p_values.len() as f64)) else {
+    let (Ok(normal), Ok(chi_squared)) = (Normal::new(0.0, 1.0), ChiSquared::new(p_values.len() as f64))
+    else {
         return 1.0;
     };
     // A p-value of 0 would be an infinite deviate; this one is far enough out.

@@ -20,6 +20,8 @@ pub struct Region {
     pub weights: Vec<[f64; 3]>,
     /// True for the luminance of a tile, false for one of its channels.
     pub is_luminance: bool,
+    /// True for a sum whose weights have either sign.
+    pub is_pattern: bool,
 }
 
 /// All tiles of all levels, each as red, green, blue and luminance. Levels with tiles smaller than a pixel are
@@ -34,7 +36,8 @@ pub fn pyramid(width: u32, height: u32) -> Vec<Region> {
         for row in 0..across {
             for column in 0..across {
                 let tile = Tile { width, height, across, row, column };
-                let channels = [("red", [1.0, 0.0, 0.0]), ("green", [0.0, 1.0, 0.0]), ("blue", [0.0, 0.0, 1.0])];
+                let channels =
+                    [("red", [1.0, 0.0, 0.0]), ("green", [0.0, 1.0, 0.0]), ("blue", [0.0, 0.0, 1.0])];
                 for (name, channel) in channels {
                     regions.push(tile.region(level, name, channel, false));
                 }
@@ -68,7 +71,7 @@ impl Tile {
             0 => "whole image".to_owned(),
             _ => format!("pixels {}–{} × {}–{}", columns.start, columns.end - 1, rows.start, rows.end - 1),
         };
-        Region { name: format!("{place}, {channel_name}"), level, weights, is_luminance }
+        Region { name: format!("{place}, {channel_name}"), level, weights, is_luminance, is_pattern: false }
     }
 }
 

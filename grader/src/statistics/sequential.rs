@@ -58,6 +58,8 @@ pub struct Judgement {
     pub decision: Decision,
     /// The region that decided: the one that is biased, or else the whole image.
     pub region: String,
+    /// True if it is no tile, but a pattern over all of them.
+    pub is_pattern: bool,
     /// That region's last comparison.
     pub comparison: Comparison,
     /// The smallest relative bias of the whole image that the samples would have shown.
@@ -81,6 +83,13 @@ pub struct Question<'a> {
     pub seed: u64,
 }
 
+impl Question<'_> {
+    /// The level at which one look flags a region.
+    fn level_of_a_look(&self) -> f64 {
+        self.screening_level / LOOKS.len() as f64
+    }
+}
+
 /// Asks for samples until the question is decided or the last look is done.
 ///
 /// # Errors
@@ -90,6 +99,7 @@ pub fn judge<E>(
     mut render: impl FnMut(&Demand) -> Result<Vec<Vec<[f32; 3]>>, E>,
 ) -> Result<Judgement, E> {
     let pixels = question.expected.mean.len() as u64;
+    let whole = &question.regions[whole_image(question.regions)];
     let seeds = seeds(question.seed);
     let mut batches = Batches::default();
     let mut taken = 0;
@@ -99,14 +109,15 @@ pub fn judge<E>(
         batches.extend(&render(&demand)?, demand.samples);
         taken = total;
         let screening = Screening::new(question, &batches);
-        let judgement = |decision, region: &str, comparison, confirmation_samples| Judgement {
+        let judgement = |decision, region: &Region, comparison, confirmation_samples| Judgement {
             decision,
-            region: region.to_owned(),
+            region: region.name.clone(),
+            is_pattern: region.is_pattern,
             comparison,
             detectable: screening.whole.detectable(CONFIRMATION_LEVEL),
             samples: (batches.samples_per_pixel() + confirmation_samples) * pixels,
         };
-        if screening.p_value < question.screening_level / LOOKS.len() as f64 {
+        if screening.p_value < question.level_of_a_look() {
             let demand = Demand {
                 seeds: self::seeds(batch_seed(question.seed, u64::MAX - look as u64)),
                 first_sample: 0,
@@ -118,16 +129,16 @@ pub fn judge<E>(
             let comparison = Comparison::new(&fresh, question.expected, &screening.suspect);
             let p_value = comparison.one_sided_p_value(screening.suspected_difference);
             if comparison.trusted && p_value < CONFIRMATION_LEVEL {
-                return Ok(judgement(Decision::Biased, &screening.suspect.name, comparison, confirmation_samples));
+                return Ok(judgement(Decision::Biased, &screening.suspect, comparison, confirmation_samples));
             }
         }
         let worst = screening.whole.relative().abs() + screening.whole.relative_margin(PASS_CONFIDENCE);
         let clear = look >= FIRST_PASS && screening.whole.trusted && worst < question.tolerance;
         if clear {
-            return Ok(judgement(Decision::Unbiased, "whole image", screening.whole, confirmation_samples));
+            return Ok(judgement(Decision::Unbiased, whole, screening.whole, confirmation_samples));
         }
         if look + 1 == LOOKS.len() {
-            return Ok(judgement(Decision::Unclear, "whole image", screening.whole, confirmation_samples));
+            return Ok(judgement(Decision::Unclear, whole, screening.whole, confirmation_samples));
         }
     }
     unreachable!("the last look decides");
@@ -135,6 +146,11 @@ pub fn judge<E>(
 
 fn seeds(seed: u64) -> Vec<u64> {
     (0..BATCHES).map(|batch| batch_seed(seed, batch)).collect()
+}
+
+/// The luminance of everything.
+fn whole_image(regions: &[Region]) -> usize {
+    regions.iter().position(|region| region.level == 0 && region.is_luminance).unwrap_or(0)
 }
 
 /// All regions at one look.
@@ -176,9 +192,14 @@ impl Screening {
             tests.push((p_value, pattern(regions, &comparisons, &tiles), 1.0));
         }
 
-        let whole = regions.iter().position(|region| region.level == 0 && region.is_luminance).unwrap_or(0);
+        let whole = whole_image(regions);
+        // The coarsest region that is flagged says most simply what is wrong; without one, the least likely.
         let count = tests.len() as f64;
-        let worst = tests.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
+        let flagged = |p_value: f64| count * p_value < question.level_of_a_look();
+        let worst = match tests.iter().position(|test| flagged(test.0)) {
+            Some(first) => Some(tests.swap_remove(first)),
+            None => tests.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)),
+        };
         let (p_value, suspect, suspected_difference) =
             worst.unwrap_or_else(|| (1.0, regions[whole].clone(), 0.0));
         Self { p_value: (count * p_value).min(1.0), suspect, suspected_difference, whole: comparisons[whole] }
@@ -197,7 +218,13 @@ fn pattern(regions: &[Region], comparisons: &[Comparison], tiles: &[usize]) -> R
             }
         }
     }
-    Region { name: "pattern over all tiles".to_owned(), level: regions[tiles[0]].level, weights, is_luminance: true }
+    Region {
+        name: "a pattern over all tiles".to_owned(),
+        level: regions[tiles[0]].level,
+        weights,
+        is_luminance: true,
+        is_pattern: true,
+    }
 }
 
 #[cfg(test)]

@@ -1,62 +1,195 @@
-//! placeholder
-use crate::math::Vec3;
-pub fn point_on(t: &[Vec3; 3], b: [f32; 2]) -> Vec3 {
-    let [a, p, q] = t.map(Vec3::as_dvec3);
-    (a + f64::from(b[0]) * (p - a) + f64::from(b[1]) * (q - a)).as_vec3()
+//! Which triangle does a ray hit first, and does anything lie between two points?
+//!
+//! Triangles are sorted into packets of eight and packets into a tree of boxes ([`tree`]), which rays descend
+//! ([`traverse`]) until they meet packets ([`packet`]). Rays do not leak: not through edges, not through
+//! vertices, nor because they start or end next to a surface ([`exact`]).
+
+mod binary;
+mod clean;
+mod exact;
+mod lanes;
+mod offset;
+mod packet;
+mod ray;
+#[cfg(test)]
+mod tests;
+mod traverse;
+mod tree;
+
+use glam::Vec3;
+
+pub use offset::{offset_origin, point_on};
+
+use binary::BinaryTree;
+use lanes::{Lanes, Portable};
+use packet::Nearest;
+use ray::PreparedRay;
+use tree::Tree;
+
+/// Triangles in an order in which those that a ray hits are found fast.
+#[derive(Clone, Debug)]
+pub struct Accel {
+    tree: Tree,
+    /// Least and greatest coordinates.
+    bounds: [Vec3; 2],
+    /// A power of two by which everything is scaled so that products of three lengths stay within f32.
+    scale: f32,
+    /// Whether to use the code that is compiled for AVX2.
+    #[cfg(target_arch = "x86_64")]
+    avx2: bool,
+    stats: AccelStats,
 }
+
+/// What was built, for messages.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct AccelStats {
+    /// Triangles that can be hit.
+    pub triangles: usize,
+    /// Triangles left out because they have no area or a coordinate that is not finite.
+    pub degenerate: usize,
+    /// Triangles left out because an earlier one has the same three corners, in whatever order.
+    pub duplicates: usize,
+    /// Nodes of the tree; 0 if all packets are tested one by one.
+    pub nodes: usize,
+    /// Nodes on the longest way from the root to a packet.
+    pub depth: usize,
+    /// Packets of up to eight triangles.
+    pub packets: usize,
+}
+
+/// Where a ray meets a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TriangleHit {
+    /// Distance from the origin, in lengths of the direction; positive.
     pub t: f32,
+    /// Index into the list of triangles that the structure was built from.
     pub primitive: u32,
+    /// Weights of corners 1 and 2. Neither is negative, and their sum is at most 1.
     pub barycentrics: [f32; 2],
 }
-pub fn offset_origin(p: Vec3, n: Vec3, d: Vec3) -> Vec3 {
-    p + n * (1e-5f32).copysign(n.dot(d))
-}
-pub struct Accel {
-    t: Vec<[Vec3; 3]>,
-}
-pub struct AccelStats {
-    pub nodes: usize,
-    pub duplicates: usize,
-}
+
 impl Accel {
-    pub fn build(t: &[[Vec3; 3]]) -> Self {
-        Self { t: t.to_vec() }
-    }
-    pub fn stats(&self) -> AccelStats {
-        AccelStats { nodes: 0, duplicates: 0 }
-    }
-    #[inline(never)]
-    pub fn intersect(&self, o: Vec3, d: Vec3, t_max: f32) -> Option<TriangleHit> {
-        let mut best = None;
-        let mut tm = t_max;
-        for (i, [a, b, c]) in self.t.iter().enumerate() {
-            let (e1, e2) = (*b - *a, *c - *a);
-            let p = d.cross(e2);
-            let det = e1.dot(p);
-            if det == 0.0 {
-                continue;
-            }
-            let s = o - *a;
-            let u = s.dot(p) / det;
-            if !(0.0..=1.0).contains(&u) {
-                continue;
-            }
-            let q = s.cross(e1);
-            let v = d.dot(q) / det;
-            if v < 0.0 || u + v > 1.0 {
-                continue;
-            }
-            let t = e2.dot(q) / det;
-            if t > 0.0 && t < tm {
-                tm = t;
-                best = Some(TriangleHit { t, primitive: i as u32, barycentrics: [u, v] })
-            }
+    /// Builds the structure over triangles given by their corners. Both sides of a triangle can be hit.
+    ///
+    /// Triangles that no ray can hit and repeated ones are left out; [`stats`](Self::stats) tells how many. Of
+    /// those with the same corners the first is kept.
+    pub fn build(triangles: &[[Vec3; 3]]) -> Self {
+        let mut cleaned = clean::clean(triangles);
+        let corners = cleaned.triangles.as_flattened_mut();
+        let scale =
+            scale_for(corners.iter().fold(0.0, |most: f32, corner| most.max(corner.abs().max_element())));
+        corners.iter_mut().for_each(|corner| *corner *= scale);
+        let bounds = [
+            corners.iter().copied().reduce(Vec3::min).unwrap_or(Vec3::ZERO),
+            corners.iter().copied().reduce(Vec3::max).unwrap_or(Vec3::ZERO),
+        ];
+        let mut tree =
+            Tree::collapse(&BinaryTree::cluster(&cleaned.triangles), &cleaned.triangles, &cleaned.primitives);
+        if tree.waiting > traverse::STACK_SIZE {
+            tree = Tree::collapse(
+                &BinaryTree::halve(&cleaned.triangles),
+                &cleaned.triangles,
+                &cleaned.primitives,
+            );
         }
-        best
+        let stats = AccelStats {
+            triangles: cleaned.triangles.len(),
+            degenerate: cleaned.degenerate,
+            duplicates: cleaned.duplicates,
+            nodes: tree.nodes.len(),
+            depth: tree.depth,
+            packets: tree.packets.len(),
+        };
+        Self {
+            bounds,
+            scale,
+            #[cfg(target_arch = "x86_64")]
+            avx2: std::arch::is_x86_feature_detected!("avx2"),
+            stats,
+            tree,
+        }
     }
+
+    /// What was built.
+    pub fn stats(&self) -> AccelStats {
+        self.stats
+    }
+
+    /// The nearest hit between 0 and `t_max`, both excluded; distances are in lengths of `direction`.
+    ///
+    /// `direction` may have any length that is far from the ends of what f32 can represent. A ray that is not
+    /// finite or has no direction hits nothing.
     #[inline(never)]
-    pub fn occluded(&self, o: Vec3, p: Vec3) -> bool {
-        self.intersect(o, p - o, 0.9999).is_some()
+    pub fn intersect(&self, origin: Vec3, direction: Vec3, t_max: f32) -> Option<TriangleHit> {
+        #[cfg(target_arch = "x86_64")]
+        if self.avx2 {
+            // SAFETY: `build` has checked that the machine has AVX2.
+            return unsafe { self.intersect_avx2(origin, direction, t_max) };
+        }
+        self.intersect_with::<Portable>(origin, direction, t_max)
     }
+
+    /// True if anything lies strictly between `origin` and `target`.
+    ///
+    /// A triangle is between them if they are strictly on opposite sides of its plane and the line from one to
+    /// the other passes through it. `target` may be rounded: a triangle that it lies on but for the rounding of
+    /// coordinates to f32, such as that of a light, is not between. For `origin` there is no such allowance; a
+    /// point on a surface must be moved off it first ([`offset_origin`]).
+    #[inline(never)]
+    pub fn occluded(&self, origin: Vec3, target: Vec3) -> bool {
+        #[cfg(target_arch = "x86_64")]
+        if self.avx2 {
+            // SAFETY: `build` has checked that the machine has AVX2.
+            return unsafe { self.occluded_avx2(origin, target) };
+        }
+        self.occluded_with::<Portable>(origin, target)
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn intersect_avx2(&self, origin: Vec3, direction: Vec3, t_max: f32) -> Option<TriangleHit> {
+        self.intersect_with::<lanes::Avx>(origin, direction, t_max)
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn occluded_avx2(&self, origin: Vec3, target: Vec3) -> bool {
+        self.occluded_with::<lanes::Avx>(origin, target)
+    }
+
+    #[inline(always)]
+    fn intersect_with<V: Lanes>(&self, origin: Vec3, direction: Vec3, t_max: f32) -> Option<TriangleHit> {
+        let ray = PreparedRay::new(origin * self.scale, direction * self.scale, self.bounds)?;
+        let mut nearest = Nearest { t: t_max, primitive: 0, weights: [0.0; 2], weight_sum: 0.0 };
+        self.tree.intersect::<V>(&ray, &mut nearest);
+        let Nearest { t, primitive, weights, weight_sum } = nearest;
+        if weight_sum == 0.0 {
+            return None;
+        }
+        let first = weights[0] / weight_sum;
+        let second = (weights[1] / weight_sum).min(1.0 - first);
+        Some(TriangleHit { t, primitive, barycentrics: [first, second] })
+    }
+
+    #[inline(always)]
+    fn occluded_with<V: Lanes>(&self, origin: Vec3, target: Vec3) -> bool {
+        let (origin, target) = (origin * self.scale, target * self.scale);
+        // One rounding: f64 would give the same.
+        let Some(ray) = PreparedRay::new(origin, target - origin, self.bounds) else { return false };
+        let reach = origin.abs().max_element() + target.abs().max_element();
+        self.tree.occluded::<V>(&ray, target, reach)
+    }
+}
+
+/// The power of two that brings coordinates up to `greatest` into a range in which products of three of them,
+/// and of differences a millionth as great, are far from the ends of f32. Almost always 1.
+fn scale_for(greatest: f32) -> f32 {
+    const LEAST: f32 = 1.0 / (1 << 15) as f32;
+    const MOST: f32 = (1u64 << 35) as f32;
+    if greatest == 0.0 || (LEAST..MOST).contains(&greatest) {
+        return 1.0;
+    }
+    // The exponent of `greatest` with its sign turned; f32 has no more than 127 to either side.
+    let exponent = greatest.log2().floor().clamp(-126.0, 126.0);
+    (-exponent).exp2()
 }

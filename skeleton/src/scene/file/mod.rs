@@ -74,18 +74,21 @@ mod keys;
 mod materials;
 mod mtl;
 mod obj;
-mod text;
+pub(crate) mod text;
 mod texture;
 mod transform;
 mod warnings;
-mod yaml;
 
+use std::collections::HashMap;
 use std::path::Path;
 
+use self::keys::SceneFile;
 use self::materials::Materials;
+use self::text::{Reference, relative_to};
 use self::transform::Placement;
 use self::warnings::Warnings;
 use super::{Diagnostic, SceneDescription};
+use crate::yaml;
 
 /// A scene as read, and what there is to say about its files.
 #[derive(Clone, Debug)]
@@ -102,13 +105,16 @@ pub struct Loaded {
 /// The first thing found that makes the scene unusable: the file that is wrong (it need not be `path`), the line
 /// if one is to blame, and what was expected.
 pub fn load(path: &Path) -> Result<Loaded, Diagnostic> {
-    let scene = yaml::read(path)?;
+    let (scene, text) = yaml::read::<SceneFile>(path)?;
     let mut materials = Materials::default();
     let mut warnings = Warnings::default();
     let mut meshes = Vec::with_capacity(scene.meshes.len());
+    // A scene may have one file thousands of times, so its name is looked up once.
+    let mut lines = HashMap::new();
     for mesh in &scene.meshes {
-        let file = text::relative_to(path, &mesh.file);
-        let named = yaml::reference_to_mesh(path, &mesh.file);
+        let file = relative_to(path, &mesh.file);
+        let line = *lines.entry(&mesh.file).or_insert_with(|| line_that_names(&mesh.file, &text));
+        let named = Reference { file: path.to_owned(), line };
         let placement = Placement::new(mesh.transform);
         meshes.push(obj::read(&file, &named, &placement, &mut materials, &mut warnings)?);
     }
@@ -122,4 +128,12 @@ pub fn load(path: &Path) -> Result<Loaded, Diagnostic> {
         defaults: scene.defaults,
     };
     Ok(Loaded { description, warnings: warnings.into_vec() })
+}
+
+/// The line of a scene file that names `file`.
+///
+/// The parser keeps no positions, so this looks for the text. A name that was written with escapes is not found.
+fn line_that_names(file: &str, text: &str) -> Option<usize> {
+    let names_it = |line: &str| !line.trim_start().starts_with('#') && line.contains(file);
+    text.lines().position(names_it).map(|index| index + 1)
 }

@@ -9,7 +9,7 @@ use crate::scene::Diagnostic;
 
 /// Where a file is named that is to be read.
 #[derive(Clone, Debug)]
-pub(super) struct Reference {
+pub(crate) struct Reference {
     /// The file that names it.
     pub(super) file: PathBuf,
     /// The line in which it does.
@@ -61,7 +61,7 @@ pub(super) fn check_readable(
 }
 
 /// Reads a text file of at most `max_bytes`; a byte order mark is dropped.
-pub(super) fn read(path: &Path, max_bytes: u64, named: Option<&Reference>) -> Result<String, Diagnostic> {
+pub(crate) fn read(path: &Path, max_bytes: u64, named: Option<&Reference>) -> Result<String, Diagnostic> {
     check_readable(path, max_bytes, named)?;
     let bytes = std::fs::read(path)
         .map_err(|error| unreadable(path, named, format_args!("cannot be read: {error}")))?;
@@ -109,6 +109,8 @@ pub(super) struct Statement<'a> {
     pub(super) arguments: &'a str,
     /// The whole line with its end.
     pub(super) text: &'a str,
+    /// Where the line starts in the file, in bytes.
+    pub(super) start: usize,
 }
 
 impl<'a> Statement<'a> {
@@ -120,14 +122,17 @@ impl<'a> Statement<'a> {
 
 /// The lines of an OBJ or MTL file, but for those that are empty or a comment.
 pub(super) fn statements(text: &str) -> impl Iterator<Item = Statement<'_>> {
-    text.split_inclusive('\n').enumerate().filter_map(|(index, text)| {
+    let mut end_of_last = 0;
+    text.split_inclusive('\n').enumerate().filter_map(move |(index, text)| {
+        let start = end_of_last;
+        end_of_last += text.len();
         let words = text.trim_ascii();
         if words.is_empty() || words.starts_with('#') {
             return None;
         }
         let end = words.bytes().position(|byte| byte.is_ascii_whitespace()).unwrap_or(words.len());
         let (keyword, arguments) = words.split_at(end);
-        Some(Statement { line: index + 1, keyword, arguments: arguments.trim_ascii_start(), text })
+        Some(Statement { line: index + 1, keyword, arguments: arguments.trim_ascii_start(), text, start })
     })
 }
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use glam::{Vec2, Vec3};
 
-use self::outline::{Outline, Pieces};
+use self::outline::{Outline, Parts};
 use super::materials::Materials;
 use super::text::{self, Reference};
 use super::transform::Placement;
@@ -57,7 +57,7 @@ fn numbers_of(file: &Path, text: &str, outline: &Outline<'_>) -> Result<tobj::Me
     let blame = |problem: String| {
         numbers::first_wrong_line(file, text).unwrap_or_else(|| Diagnostic::about(file, problem))
     };
-    let (models, _) = tobj::load_obj_buf(&mut Pieces::new(&outline.geometry), &options, no_materials)
+    let (models, _) = tobj::load_obj_buf(&mut Parts::new(text, &outline.geometry), &options, no_materials)
         .map_err(|error| blame(format!("cannot be read: {error}")))?;
     // Names of objects and materials are not passed on to `tobj`, so there is nothing to split a mesh at.
     let mesh = models.into_iter().next().map(|model| model.mesh).unwrap_or_default();

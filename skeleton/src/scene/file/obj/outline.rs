@@ -5,6 +5,7 @@
 //! pass checks the statements and the indices, notes which triangles have what, and picks the lines for `tobj`.
 
 use std::io::{self, BufRead, Read};
+use std::ops::Range;
 use std::path::Path;
 
 use super::numbers;
@@ -15,8 +16,8 @@ use crate::scene::file::warnings::Warnings;
 /// What an OBJ file is made of.
 #[derive(Default)]
 pub(super) struct Outline<'a> {
-    /// The statements `v`, `vt`, `vn` and `f`, without comments.
-    pub(super) geometry: Vec<&'a str>,
+    /// Where the text has statements `v`, `vt`, `vn` and `f`, without comments; neighbours make one range.
+    pub(super) geometry: Vec<Range<usize>>,
     /// Runs of triangles that are alike, in the order of the file.
     pub(super) runs: Vec<Run<'a>>,
     /// How many triangles there are once polygons are cut into fans.
@@ -169,13 +170,18 @@ impl<'a> Outline<'a> {
         Ok((has[1], has[2]))
     }
 
+    /// Leaves a statement to `tobj`, but not a comment at its end.
     fn push_geometry(&mut self, statement: &Statement<'a>) {
-        if statement.text.contains('#') {
-            // Only what stands before the comment, and a line end to replace the one after it.
-            let words = statement.text.split('#').next().unwrap_or_default();
-            self.geometry.extend([words, "\n"]);
-        } else {
-            self.geometry.push(statement.text);
+        let Statement { start, text, .. } = *statement;
+        let end = start + text.len();
+        match text.find('#') {
+            Some(comment) => {
+                self.geometry.extend([start..start + comment, end - usize::from(text.ends_with('\n'))..end])
+            }
+            None => match self.geometry.last_mut() {
+                Some(last) if last.end == start => last.end = end,
+                _ => self.geometry.push(start..end),
+            },
         }
     }
 }
@@ -195,46 +201,49 @@ fn out_of_range(kind: usize, index: i64, count: usize) -> String {
     }
 }
 
-/// The beginning of a word, so that garbage does not fill the screen.
+/// The beginning of a word, without control characters, so that garbage does not upset the terminal.
 pub(super) fn shown(word: &str) -> String {
     const LONGEST: usize = 40;
-    let mut start: String = word.chars().take(LONGEST).collect();
-    if start.len() < word.len() {
+    let printable = |character: char| if character.is_control() { '\u{fffd}' } else { character };
+    let mut start: String = word.chars().take(LONGEST).map(printable).collect();
+    if word.chars().nth(LONGEST).is_some() {
         start.push('…');
     }
     start
 }
 
-/// Lets `tobj` read pieces of a text one after the other, without a copy.
-pub(super) struct Pieces<'a> {
-    /// What is left of the current piece.
-    current: &'a [u8],
-    rest: std::slice::Iter<'a, &'a str>,
+/// Lets `tobj` read parts of a text one after the other, without a copy.
+pub(super) struct Parts<'a> {
+    text: &'a [u8],
+    /// What is left of the current part.
+    current: Range<usize>,
+    rest: std::slice::Iter<'a, Range<usize>>,
 }
 
-impl<'a> Pieces<'a> {
-    pub(super) fn new(pieces: &'a [&'a str]) -> Self {
-        Self { current: &[], rest: pieces.iter() }
+impl<'a> Parts<'a> {
+    /// The `parts` must be within the text.
+    pub(super) fn new(text: &'a str, parts: &'a [Range<usize>]) -> Self {
+        Self { text: text.as_bytes(), current: 0..0, rest: parts.iter() }
     }
 }
 
-impl BufRead for Pieces<'_> {
+impl BufRead for Parts<'_> {
     fn fill_buf(&mut self) -> io::Result<&[u8]> {
         while self.current.is_empty() {
             match self.rest.next() {
-                Some(piece) => self.current = piece.as_bytes(),
+                Some(part) => self.current = part.clone(),
                 None => break,
             }
         }
-        Ok(self.current)
+        Ok(&self.text[self.current.clone()])
     }
 
     fn consume(&mut self, amount: usize) {
-        self.current = &self.current[amount..];
+        self.current.start += amount;
     }
 }
 
-impl Read for Pieces<'_> {
+impl Read for Parts<'_> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let read = self.fill_buf()?.read(buffer)?;
         self.consume(read);

@@ -1,0 +1,40 @@
+//! Everything that is written.
+
+use crate::model::Model;
+use crate::output::{Content, OutputFile};
+use crate::scene_file::SceneFile;
+
+/// All scenes with what they are made of.
+#[derive(Default)]
+pub(crate) struct Collection {
+    /// Scenes; each names some of the models.
+    pub(crate) scenes: Vec<SceneFile>,
+    /// Models; one may stand in several scenes.
+    pub(crate) models: Vec<Model>,
+    /// PNG files by name.
+    pub(crate) textures: Vec<(&'static str, Vec<u8>)>,
+}
+
+impl Collection {
+    /// The model of a name.
+    pub(crate) fn model(&self, name: &str) -> Option<&Model> {
+        self.models.iter().find(|model| model.name == name)
+    }
+
+    /// All files, as they are to be on the disk.
+    pub(crate) fn files(&self) -> Vec<OutputFile> {
+        let text = |name: String, text: String| OutputFile { name, content: Content::Text(text) };
+        let mut files = Vec::new();
+        for scene in &self.scenes {
+            files.push(text(format!("{}.yml", scene.name), scene.yaml()));
+        }
+        for model in &self.models {
+            files.push(text(format!("{}.obj", model.name), model.obj()));
+            files.push(text(format!("{}.mtl", model.name), model.mtl()));
+        }
+        for (name, png) in &self.textures {
+            files.push(OutputFile { name: (*name).to_owned(), content: Content::Png(png.clone()) });
+        }
+        files
+    }
+}

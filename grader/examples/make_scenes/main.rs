@@ -1,0 +1,77 @@
+//! Writes the public scenes of the exercise into `scenes/`, or checks that they are as this program would
+//! write them.
+//!
+//! Every number of every scene stands in the files of `scenes/` beside this one: whoever wants to know why a
+//! light hangs where it does finds it there, and whoever wants another scene copies one of them.
+//!
+//! ```text
+//! cargo run --release -p grader --example make_scenes              # writes
+//! cargo run --release -p grader --example make_scenes -- --check   # compares, status 1 on a difference
+//! ```
+
+mod collection;
+mod model;
+mod number;
+mod output;
+mod picture;
+#[cfg(test)]
+mod raycast;
+mod scene_file;
+mod scenes;
+mod shapes;
+mod solids;
+mod soundness;
+mod surface;
+#[cfg(test)]
+mod tests;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// The folder that is written: `scenes/` at the top of the repository.
+fn scenes_folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join("scenes")
+}
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let check_only = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        [] => false,
+        ["--check"] => true,
+        _ => {
+            eprintln!("usage: make_scenes [--check]");
+            return ExitCode::from(2);
+        }
+    };
+
+    let collection = scenes::all();
+    let faults = soundness::faults(&collection);
+    if !faults.is_empty() {
+        eprintln!("nothing written, because the scenes are not sound:\n{}", faults.join("\n"));
+        return ExitCode::from(3);
+    }
+
+    let files = collection.files();
+    if check_only {
+        let differences = output::differences(&scenes_folder(), &files);
+        for difference in &differences {
+            eprintln!("{difference}");
+        }
+        if !differences.is_empty() {
+            eprintln!("run `cargo run --release -p grader --example make_scenes` to write them anew");
+            return ExitCode::FAILURE;
+        }
+        println!("{} files are as they should be", files.len());
+        return ExitCode::SUCCESS;
+    }
+    match output::write(&scenes_folder(), &files) {
+        Ok(()) => {
+            println!("{} files written", files.len());
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("cannot write the scenes: {error}");
+            ExitCode::from(3)
+        }
+    }
+}

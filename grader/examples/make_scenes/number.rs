@@ -1,0 +1,36 @@
+//! Numbers as they stand in the files: four decimals at most, the same on every machine.
+
+use glam::DVec3;
+
+/// Steps per unit that a written number can tell apart.
+///
+/// Sines and the like differ in their last bits from one platform's library to the next. Four decimals are
+/// far coarser than that, and at the size of our scenes far finer than anyone can see.
+const STEPS: f64 = 1e4;
+
+/// The nearest number that can be written.
+pub(crate) fn snap(value: f64) -> f64 {
+    (value * STEPS).round() / STEPS
+}
+
+/// The nearest point that can be written.
+pub(crate) fn snap_point(point: DVec3) -> DVec3 {
+    DVec3::new(snap(point.x), snap(point.y), snap(point.z))
+}
+
+/// A number without needless zeros, and without a minus before a zero.
+pub(crate) fn text(value: f64) -> String {
+    let fixed = format!("{value:.4}");
+    let short = fixed.trim_end_matches('0').trim_end_matches('.');
+    if short == "-0" { "0".to_owned() } else { short.to_owned() }
+}
+
+/// Three numbers with spaces between, as OBJ wants them.
+pub(crate) fn spaced(values: [f64; 3]) -> String {
+    values.map(text).join(" ")
+}
+
+/// Three numbers as a YAML list.
+pub(crate) fn listed(values: [f64; 3]) -> String {
+    format!("[{}]", values.map(text).join(", "))
+}

@@ -1,0 +1,248 @@
+//! What is looked at: one file a check.
+
+mod mean_bias;
+mod white_furnace;
+
+pub use white_furnace::is_furnace;
+
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+use arty::scene::{Scene, SceneDescription};
+use host::protocol::{AnomalousSample, RenderJob};
+
+use crate::build::HandInProgram;
+use crate::error::Result;
+use crate::host_process::{Fault, HostProcess};
+use crate::reference::{Reference, SIZE};
+use crate::report::{CheckResult, Reason, Verdict};
+use crate::rubric::{CheckKind, CheckSpec, Task};
+use crate::statistics::bias::Expected;
+use crate::statistics::regions::pyramid;
+use crate::statistics::sequential::{CONFIRMATION_LEVEL, Decision, Demand, Judgement, Question, judge};
+
+/// A scene with all that checks need to know of it.
+pub struct JudgedScene {
+    /// Its content.
+    pub description: SceneDescription,
+    /// The same, ready for rays; for its features.
+    pub scene: Scene,
+    /// What it looks like.
+    pub reference: Reference,
+}
+
+/// What all checks of a grade share.
+pub struct Bench<'a> {
+    /// The hand-in.
+    pub program: &'a HandInProgram,
+    /// The scenes by name.
+    pub scenes: &'a BTreeMap<String, JudgedScene>,
+    /// The seed of the grade.
+    pub seed: u64,
+    /// The share of the screening level that one check may spend.
+    pub screening_level: f64,
+    /// Threads for the hand-in.
+    pub threads: usize,
+    /// The command that repeats this grade, to which `--only=…` is added.
+    pub command: String,
+}
+
+impl Bench<'_> {
+    /// Runs one check.
+    ///
+    /// # Errors
+    /// What is not the hand-in's doing. All else is in the result.
+    pub fn run(&self, task: &Task, spec: &CheckSpec) -> Result<CheckResult> {
+        let judged = &self.scenes[&spec.scene];
+        let expected = match spec.check {
+            CheckKind::MeanBias => mean_bias::expected(spec, &judged.reference)?,
+            CheckKind::WhiteFurnace => white_furnace::expected(spec, judged)?,
+        };
+        self.compare_means(task, spec, judged, &expected)
+    }
+
+    /// Judges the means of the hand-in's renderings.
+    fn compare_means(
+        &self,
+        task: &Task,
+        spec: &CheckSpec,
+        judged: &JudgedScene,
+        expected: &Expected,
+    ) -> Result<CheckResult> {
+        let start = Instant::now();
+        let regions = pyramid(SIZE.0, SIZE.1);
+        let question = Question {
+            expected,
+            regions: &regions,
+            tolerance: spec.tolerance,
+            screening_level: self.screening_level,
+            seed: self.seed_of(spec),
+        };
+        let mut numerics = Numerics::default();
+        let mut process = HostProcess::start(self.program, self.threads)?;
+        let judgement = match process.load(&judged.description)? {
+            Err(fault) => Err(Stop::HandIn(fault)),
+            Ok(scene) => judge(&question, |demand| {
+                let job = render_job(scene, spec, demand);
+                let rendered = process.render(&job).map_err(Stop::Harness)?.map_err(Stop::HandIn)?;
+                numerics.non_finite += rendered.non_finite;
+                numerics.negative += rendered.negative;
+                numerics.first.extend(rendered.first_anomalies);
+                Ok(rendered.batches)
+            }),
+        };
+        let mut result = CheckResult {
+            id: spec.id(),
+            check: spec.check,
+            scene: spec.scene.clone(),
+            task: task.id.clone(),
+            technique: spec.technique,
+            max_bounces: spec.max_bounces,
+            evidence: spec.evidence,
+            verdict: Verdict::Error,
+            reason: Reason::Harness,
+            explanation: String::new(),
+            effect: None,
+            interval: None,
+            detectable: None,
+            samples: 0,
+            seconds: 0.0,
+            non_finite: numerics.non_finite,
+            negative: numerics.negative,
+            repeat: format!("{} --only={}", self.command, spec.id()),
+        };
+        match judgement {
+            Ok(judgement) => describe(&mut result, &judgement, spec),
+            Err(Stop::HandIn(fault)) => {
+                result.verdict = Verdict::Fail;
+                result.reason = match fault {
+                    Fault::Timeout => Reason::Timeout,
+                    Fault::Panic(_) | Fault::Crash(_) => Reason::Crash,
+                    Fault::Malformed(_) => Reason::Violation,
+                };
+                result.explanation = fault.to_string();
+            }
+            Err(Stop::Harness(error)) => return Err(error),
+        }
+        if let Some(first) = numerics.first.first() {
+            result.verdict = Verdict::Fail;
+            result.reason = Reason::Numerics;
+            result.explanation = format!(
+                "{} samples are NaN or infinite and {} negative; the first: pixel ({}, {}), sample {}, value {:?}",
+                numerics.non_finite, numerics.negative, first.x, first.y, first.sample, first.value
+            );
+        }
+        result.seconds = start.elapsed().as_secs_f64();
+        Ok(result)
+    }
+
+    /// The seed of a check: fixed by the grade's seed and the check's name, whatever else is run.
+    fn seed_of(&self, spec: &CheckSpec) -> u64 {
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(&self.seed.to_le_bytes());
+        hasher.update(spec.id().as_bytes());
+        let mut first = [0; 8];
+        first.copy_from_slice(&hasher.finalize().as_bytes()[..8]);
+        u64::from_le_bytes(first)
+    }
+}
+
+/// Why samples stopped coming.
+enum Stop {
+    HandIn(Fault),
+    Harness(crate::error::Error),
+}
+
+/// Samples that are no radiance.
+#[derive(Default)]
+struct Numerics {
+    non_finite: u64,
+    negative: u64,
+    first: Vec<AnomalousSample>,
+}
+
+fn render_job(scene: u32, spec: &CheckSpec, demand: &Demand) -> RenderJob {
+    RenderJob {
+        scene,
+        settings: arty::integrator::Settings { technique: spec.technique, max_bounces: spec.max_bounces },
+        width: SIZE.0,
+        height: SIZE.1,
+        seeds: demand.seeds.clone(),
+        first_sample: demand.first_sample,
+        samples: demand.samples,
+    }
+}
+
+/// Confidence of the interval that is reported.
+const CONFIDENCE: f64 = 0.99;
+
+fn describe(result: &mut CheckResult, judgement: &Judgement, spec: &CheckSpec) {
+    let comparison = judgement.comparison;
+    let effect = comparison.relative();
+    let margin = comparison.relative_margin(CONFIDENCE);
+    result.effect = Some(effect);
+    result.interval = Some([effect - margin, effect + margin]);
+    result.detectable = Some(judgement.detectable);
+    result.samples = judgement.samples;
+    (result.verdict, result.reason, result.explanation) = match judgement.decision {
+        Decision::Biased => (
+            Verdict::Fail,
+            Reason::Bias,
+            format!(
+                "{} ({}); a correct program differs as much less than once in {:.0} times",
+                if judgement.is_pattern { describe_pattern(effect) } else { describe_effect(effect) },
+                judgement.region,
+                1.0 / CONFIRMATION_LEVEL
+            ),
+        ),
+        Decision::Unbiased => (
+            Verdict::Pass,
+            Reason::None,
+            format!("the mean is right to within {:.1} %", 100.0 * (effect.abs() + margin)),
+        ),
+        Decision::Unclear => (
+            Verdict::Inconclusive,
+            Reason::Noise,
+            format!(
+                "too noisy: after {} samples an error of {:.1} % could still hide, {:.1} % is allowed",
+                judgement.samples,
+                100.0 * judgement.detectable,
+                100.0 * spec.tolerance
+            ),
+        ),
+    };
+}
+
+/// What a weighted sum over all tiles says, whose parts have either sign.
+fn describe_pattern(effect: f64) -> String {
+    format!("the means are {:.1} % off, too bright here and too dark there", 100.0 * effect.abs())
+}
+
+/// "12 % too dark", "2.1 times as bright as it should be", "black".
+fn describe_effect(effect: f64) -> String {
+    if effect <= -1.0 {
+        "the mean is black".to_owned()
+    } else if effect < 0.0 {
+        format!("the mean is {:.1} % too dark", -100.0 * effect)
+    } else if effect < 0.5 {
+        format!("the mean is {:.1} % too bright", 100.0 * effect)
+    } else if effect.is_finite() {
+        format!("the mean is {:.2} times as bright as it should be", 1.0 + effect)
+    } else {
+        "the mean is bright where it should be black".to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::describe_effect;
+
+    #[test]
+    fn effects_read_like_sentences() {
+        assert_eq!(describe_effect(-1.0), "the mean is black");
+        assert_eq!(describe_effect(-0.123), "the mean is 12.3 % too dark");
+        assert_eq!(describe_effect(0.02), "the mean is 2.0 % too bright");
+        assert_eq!(describe_effect(1.0), "the mean is 2.00 times as bright as it should be");
+        assert_eq!(describe_effect(f64::INFINITY), "the mean is bright where it should be black");
+    }
+}

@@ -1,0 +1,54 @@
+//! `grader grade`.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use crate::error::Result;
+use crate::grade::{Options, grade};
+use crate::report::{print_check, print_summary};
+use crate::submission::Submission;
+use crate::workspace::Workspace;
+
+/// Grade one hand-in.
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// A render_pt.rs, or a folder with one in it [default: the student file in the skeleton]
+    submission: Option<PathBuf>,
+    /// The assignment: a folder below assignments/
+    #[arg(long, default_value = "05-nee-mis")]
+    assignment: String,
+    /// Folder for report.json; it is made if it is not there
+    #[arg(long, value_name = "DIR", default_value = "report")]
+    out: PathBuf,
+    /// Seed of all random numbers: the same seed gives the same verdicts
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Run only these checks: by check, kind, scene, technique or task; may be given several times
+    #[arg(long, value_name = "CHECK|SCENE|TASK")]
+    only: Vec<String>,
+    /// Threads for the hand-in [default: one for each core]
+    #[arg(long, value_name = "N")]
+    jobs: Option<usize>,
+    /// Exit with status 1 if fewer points than this are earned
+    #[arg(long, value_name = "POINTS")]
+    fail_under: Option<f64>,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
+    let workspace = Workspace::find()?;
+    let path = arguments.submission.clone().unwrap_or_else(|| workspace.student_file());
+    let submission = Submission::read(&path)?;
+    let threads = arguments.jobs.unwrap_or_else(rayon::current_num_threads).max(1);
+    let options = Options {
+        assignment: arguments.assignment.clone(),
+        seed: arguments.seed,
+        threads,
+        only: arguments.only.clone(),
+    };
+    let report = grade(&workspace, &submission, &options, print_check)?;
+    print_summary(&report);
+    let file = report.save(&arguments.out)?;
+    eprintln!("report: {}", file.display());
+    let too_few = arguments.fail_under.is_some_and(|least| report.points.earned < least);
+    Ok(ExitCode::from(u8::from(too_few)))
+}

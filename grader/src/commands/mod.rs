@@ -1,0 +1,42 @@
+//! The commands of the program.
+
+mod figures;
+mod grade;
+mod reference;
+mod trusted;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Builds, runs and judges hand-ins of the path tracing exercise.
+#[derive(Parser)]
+#[command(name = "grader", version, propagate_version = true)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Grade one hand-in: build it, run its checks, print points, write report.json.
+    Grade(grade::Arguments),
+    /// Render the figures of the sheet with the solution (for staff).
+    Figures(figures::Arguments),
+    /// Render the references of scenes with the solution (for staff).
+    Reference(reference::Arguments),
+}
+
+/// Runs the command line. The exit status is 0 if the command did its work, whatever the points; 1 for fewer points
+/// than `--fail-under`; 2 if the command line or an input is wrong; 3 if the grader itself failed.
+pub fn run() -> ExitCode {
+    let outcome = match Arguments::parse().command {
+        Command::Grade(arguments) => grade::run(&arguments),
+        Command::Figures(arguments) => figures::run(&arguments),
+        Command::Reference(arguments) => reference::run(&arguments),
+    };
+    outcome.unwrap_or_else(|error| {
+        eprintln!("error: {error}");
+        error.exit_code()
+    })
+}

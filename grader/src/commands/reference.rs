@@ -1,0 +1,73 @@
+//! `grader reference`.
+
+use std::process::ExitCode;
+
+use arty::image::exr::{ExrFile, Precision};
+use arty::integrator::{Settings, Technique};
+use arty::scene::file::load;
+
+use super::trusted::solution;
+use crate::error::{Error, Result};
+use crate::reference::{self, Effort};
+use crate::rubric::Rubric;
+use crate::workspace::Workspace;
+
+/// Width and height of the pictures to look at.
+const PICTURE_SIZE: (u32, u32) = (320, 256);
+
+/// Samples of each of their pixels.
+const PICTURE_SAMPLES: u64 = 1024;
+
+/// Render references with the solution.
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// Scenes by name [default: all that the assignment checks]
+    scenes: Vec<String>,
+    /// The assignment that says which images of a scene are needed
+    #[arg(long, default_value = "05-nee-mis")]
+    assignment: String,
+    /// Seed of all random numbers
+    #[arg(long, default_value_t = 20_190_501)]
+    seed: u64,
+    /// Leave out the pictures to look at
+    #[arg(long)]
+    no_pictures: bool,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
+    let workspace = Workspace::find()?;
+    let rubric = Rubric::load(&workspace.assignment(&arguments.assignment).join("rubric.yml"))?;
+    let mut wanted = rubric.scenes();
+    if let Some(unknown) = arguments.scenes.iter().find(|scene| !wanted.contains_key(scene.as_str())) {
+        let known: Vec<&str> = wanted.keys().copied().collect();
+        return Err(Error::Input(format!(
+            "no check uses a scene `{unknown}`; there are {}",
+            known.join(", ")
+        )));
+    }
+    wanted
+        .retain(|scene, _| arguments.scenes.is_empty() || arguments.scenes.iter().any(|name| name == scene));
+
+    let program = solution(&workspace)?;
+    for (scene, wanted) in wanted {
+        eprintln!("{scene} …");
+        let description = load(&workspace.scene_file(scene))?.description;
+        let made = reference::make(&program, &description, &wanted, Effort::default(), arguments.seed)?;
+        reference::save(&made, &workspace.reference_file(scene))?;
+        if !arguments.no_pictures {
+            let max_bounces = wanted.keys().next_back().copied().unwrap_or(1);
+            let settings = Settings { technique: Technique::Mis, max_bounces };
+            let picture = reference::picture(
+                &program,
+                &description,
+                settings,
+                PICTURE_SIZE,
+                PICTURE_SAMPLES,
+                arguments.seed,
+            )?;
+            let file = ExrFile::new(&picture).with_metadata("arty:scene_hash", &made.scene_hash);
+            file.write(&workspace.picture_file(scene), Precision::Half)?;
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}

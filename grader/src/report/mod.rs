@@ -1,0 +1,232 @@
+//! What a grade has found. `report.json` holds all of it; every other format is made from that.
+
+mod terminal;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use arty::integrator::Technique;
+use serde::{Deserialize, Serialize};
+
+use crate::build::BuildFailure;
+use crate::error::{Error, Result};
+use crate::rubric::CheckKind;
+
+pub use terminal::{print_check, print_summary};
+
+/// The version of the format.
+pub const SCHEMA: &str = "arty-report/1";
+
+/// The result of grading one hand-in.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// What was graded.
+    pub submission: SubmissionInfo,
+    /// For which assignment.
+    pub assignment: String,
+    /// The sums.
+    pub points: Points,
+    /// Task by task.
+    pub tasks: Vec<TaskResult>,
+    /// Check by check.
+    pub checks: Vec<CheckResult>,
+    /// What the scenes made pointless.
+    pub left_out: Vec<LeftOut>,
+    /// Likely causes, the likeliest first.
+    pub diagnosis: Vec<Diagnosis>,
+    /// Samples that were no radiance.
+    pub numerics: Numerics,
+    /// Where the time went.
+    pub cost: Cost,
+    /// How the hand-in was confined.
+    pub sandbox: Sandbox,
+    /// What the grade rests on.
+    pub provenance: BTreeMap<String, String>,
+}
+
+/// What was graded.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SubmissionInfo {
+    /// The path as it was given.
+    pub path: String,
+    /// BLAKE3 of the source.
+    pub hash: String,
+    /// Why it does not compile, if it does not.
+    pub build_failure: Option<BuildFailure>,
+}
+
+/// Sums of points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Points {
+    /// Earned in the tasks that are graded automatically.
+    pub earned: f64,
+    /// What these tasks are worth.
+    pub automatic_max: f64,
+    /// What the tasks are worth that a person marks.
+    pub manual_max: f64,
+    /// Both together.
+    pub max: f64,
+}
+
+/// The points of one task.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TaskResult {
+    /// Its number on the sheet.
+    pub id: String,
+    /// What it is about.
+    pub title: String,
+    /// Points earned; none yet where a person marks.
+    pub points: Option<f64>,
+    /// Points for all of it.
+    pub max: f64,
+    /// The checks that decide.
+    pub checks: Vec<String>,
+    /// Why points are missing.
+    pub reason: String,
+}
+
+/// The outcome of one check.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CheckResult {
+    /// What tells it from all others.
+    pub id: String,
+    /// The kind of check.
+    pub check: CheckKind,
+    /// The scene.
+    pub scene: String,
+    /// The task that it decides.
+    pub task: String,
+    /// The technique that was asked for.
+    pub technique: Technique,
+    /// The largest number of bounces.
+    pub max_bounces: u32,
+    /// True if the task earns nothing without it.
+    pub evidence: bool,
+    /// The outcome.
+    pub verdict: Verdict,
+    /// Why, as a code.
+    pub reason: Reason,
+    /// Why, in a sentence.
+    pub explanation: String,
+    /// The relative error of the mean, in the region that decided.
+    pub effect: Option<f64>,
+    /// Its 99 % interval.
+    pub interval: Option<[f64; 2]>,
+    /// The smallest relative error of the whole image that would have been found.
+    pub detectable: Option<f64>,
+    /// Paths traced.
+    pub samples: u64,
+    /// Time it took.
+    pub seconds: f64,
+    /// Samples that were NaN or infinite.
+    pub non_finite: u64,
+    /// Samples that were negative.
+    pub negative: u64,
+    /// The command that repeats it.
+    pub repeat: String,
+}
+
+/// How a check can end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// What was looked for is right.
+    Pass,
+    /// It is wrong.
+    Fail,
+    /// It cannot be told: too noisy.
+    Inconclusive,
+    /// It was not looked at.
+    LeftOut,
+    /// The harness failed.
+    Error,
+}
+
+/// Why a check ended as it did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Reason {
+    /// Nothing to complain about.
+    None,
+    /// The mean is wrong.
+    Bias,
+    /// Too noisy.
+    Noise,
+    /// NaN, infinite or negative samples.
+    Numerics,
+    /// The hand-in took too long.
+    Timeout,
+    /// It panicked or its process died.
+    Crash,
+    /// It answered with what was not asked for.
+    Violation,
+    /// The harness failed.
+    Harness,
+}
+
+/// A check that was not run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LeftOut {
+    /// Which.
+    pub check: String,
+    /// In which scene.
+    pub scene: String,
+    /// Why it would mean nothing there.
+    pub why: String,
+}
+
+/// A likely cause.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Diagnosis {
+    /// Its number in the catalogue of mistakes.
+    pub mistake: String,
+    /// What it is.
+    pub title: String,
+    /// How sure that is, in [0, 1].
+    pub confidence: f64,
+    /// What was observed.
+    pub evidence: String,
+    /// What to think about.
+    pub hint: String,
+}
+
+/// Samples that were no radiance, over all checks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Numerics {
+    /// NaN or infinite.
+    pub non_finite: u64,
+    /// Finite but negative.
+    pub negative: u64,
+}
+
+/// Where the time went, in seconds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Cost {
+    /// Making the framework ready.
+    pub framework: f64,
+    /// Compiling the hand-in.
+    pub build: f64,
+    /// Running it.
+    pub run: f64,
+    /// Everything.
+    pub total: f64,
+}
+
+/// How the hand-in was confined.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Sandbox {
+    /// `none`: a process of its own, and nothing more.
+    pub level: String,
+}
+
+impl Report {
+    /// Writes `report.json` into a folder, which is made if it is not there.
+    pub fn save(&self, folder: &Path) -> Result<std::path::PathBuf> {
+        std::fs::create_dir_all(folder).map_err(|error| Error::file(folder, error))?;
+        let path = folder.join("report.json");
+        arty::image::write_aside(&path, |writer| serde_json::to_writer_pretty(writer, self))?;
+        Ok(path)
+    }
+}

@@ -1,0 +1,71 @@
+//! The report on a terminal.
+
+use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
+use comfy_table::{Cell, CellAlignment, Color, Table};
+
+use super::{CheckResult, Report, Verdict};
+
+/// One line for a check, as soon as it has ended.
+pub fn print_check(check: &CheckResult) {
+    eprintln!("{:>12}  {}  {}", word(check.verdict), check.id, check.explanation);
+}
+
+/// The table of tasks and the checks that cost points.
+pub fn print_summary(report: &Report) {
+    if let Some(failure) = &report.submission.build_failure {
+        println!("The hand-in does not compile:\n\n{}", failure.messages);
+    }
+    let mut table = Table::new();
+    table.load_style(UTF8_HORIZONTAL_ONLY).set_header([
+        "task",
+        "",
+        "points",
+        "checks passed",
+        "what is missing",
+    ]);
+    for task in &report.tasks {
+        let checks = report.checks.iter().filter(|check| check.task == task.id);
+        let passed = checks.clone().filter(|check| check.verdict == Verdict::Pass).count();
+        let (points, passed) = match task.points {
+            None => (format!("– / {}", task.max), String::new()),
+            Some(points) => (format!("{} / {}", points, task.max), format!("{passed} of {}", checks.count())),
+        };
+        let color = match task.points {
+            Some(points) if points >= task.max => Color::Green,
+            Some(points) if points > 0.0 => Color::Yellow,
+            Some(_) => Color::Red,
+            None => Color::Reset,
+        };
+        table.add_row([
+            Cell::new(&task.id),
+            Cell::new(&task.title),
+            Cell::new(points).fg(color).set_alignment(CellAlignment::Right),
+            Cell::new(passed).set_alignment(CellAlignment::Right),
+            Cell::new(&task.reason),
+        ]);
+    }
+    println!("{table}");
+    println!(
+        "{} of {} automatic points ({} more are marked by a person), {:.1} s",
+        report.points.earned, report.points.automatic_max, report.points.manual_max, report.cost.total
+    );
+    for check in report.checks.iter().filter(|check| check.verdict != Verdict::Pass) {
+        println!(
+            "\n{}: {}\n  {}\n  again: {}",
+            word(check.verdict),
+            check.id,
+            check.explanation,
+            check.repeat
+        );
+    }
+}
+
+fn word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Pass => "pass",
+        Verdict::Fail => "FAIL",
+        Verdict::Inconclusive => "inconclusive",
+        Verdict::LeftOut => "left out",
+        Verdict::Error => "error",
+    }
+}
