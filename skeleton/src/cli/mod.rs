@@ -90,8 +90,8 @@ fn execute(args: &Args, make: impl FnOnce(Algorithm) -> Box<dyn Integrator>) -> 
         inspect::print(args, &loaded, &scene);
         return Ok(Exit::Done);
     }
-    loaded.warnings.iter().for_each(|warning| messages::warning(warning));
-    scene.warnings().iter().for_each(|warning| messages::warning(warning));
+    loaded.warnings.iter().for_each(messages::warning);
+    scene.warnings().iter().for_each(messages::warning);
 
     let plan = Plan::new(args, scene.defaults())?;
     plan.outputs.iter().try_for_each(|output| output.check())?;
@@ -107,7 +107,7 @@ fn execute(args: &Args, make: impl FnOnce(Algorithm) -> Box<dyn Integrator>) -> 
     }
     let integrator = make(plan.algorithm);
     let mut progress = Progress::new(args.quiet);
-    let mut live = Live::open(args.tev.as_deref(), &provenance.title(), &plan);
+    let mut live = Live::open(args.tev.as_deref(), provenance.title(), &plan);
     let rendering = session::render_scene(&*integrator, &scene, &plan, &stop, |film, state| {
         progress.update(state);
         live.update(film, &progress);
