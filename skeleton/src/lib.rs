@@ -16,6 +16,7 @@
 //! | [`integrator`] | what a light transport algorithm is |
 //! | [`film`], [`render`](mod@render) | gathering samples |
 //! | [`srgb`], `image` | pictures in memory, in files, in a viewer |
+//! | `cli` | the program around all this |
 //!
 //! # Units and conventions
 //! Positions and directions are in world space, right-handed. Directions are unit vectors that point away from the
@@ -26,6 +27,8 @@
 pub mod accel;
 pub mod bsdf;
 pub mod camera;
+#[cfg(feature = "cli")]
+pub mod cli;
 pub mod film;
 #[cfg(feature = "files")]
 pub mod image;

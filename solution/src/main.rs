@@ -1,6 +1,6 @@
 //! The renderer as a program.
 
-mod algorithms;
+pub mod algorithms;
 
 use std::process::ExitCode;
 

@@ -11,7 +11,7 @@ mod save;
 pub mod tev;
 
 pub use png::write_png;
-pub use save::write_aside;
+pub use save::{check_writable, write_aside};
 
 /// A rectangle of linear colours.
 ///

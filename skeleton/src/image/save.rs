@@ -5,6 +5,8 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
+use tempfile::NamedTempFile;
+
 use crate::scene::Diagnostic;
 
 /// Writes a file aside and moves it to `path` once it is complete.
@@ -21,18 +23,40 @@ pub fn write_aside<E: Display>(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<&File>) -> Result<(), E>,
 ) -> Result<(), Diagnostic> {
-    let fail = |reason: &dyn Display| Diagnostic::about(path, format!("cannot be written: {reason}"));
+    // If anything fails from here on, dropping the temporary file removes it.
+    let temporary = temporary_beside(path)?;
+    let mut writer = BufWriter::new(temporary.as_file());
+    write(&mut writer).map_err(|error| cannot_write(path, &error))?;
+    // Dropping the writer would flush too, but swallow the error of a full disk.
+    writer.flush().map_err(|error| cannot_write(path, &error))?;
+    drop(writer);
+    temporary.persist(path).map_err(|error| cannot_write(path, &error.error))?;
+    Ok(())
+}
 
+/// Finds out whether [`write_aside`] would have a place for a file, before the work to fill it is done.
+///
+/// Neither the file nor an earlier one of that name is touched.
+///
+/// # Errors
+///
+/// Why the file cannot be there: its folder is missing or may not be written to, `path` is a folder.
+pub fn check_writable(path: &Path) -> Result<(), Diagnostic> {
+    temporary_beside(path).map(drop)
+}
+
+/// An empty file in the folder of `path`, which is removed when it is dropped.
+fn temporary_beside(path: &Path) -> Result<NamedTempFile, Diagnostic> {
     let Some(name) = path.file_name() else {
-        return Err(fail(&"this does not name a file"));
+        return Err(cannot_write(path, &"this does not name a file"));
     };
     if path.is_dir() {
-        return Err(fail(&"this is a folder"));
+        return Err(cannot_write(path, &"this is a folder"));
     }
     // The temporary file has to be in the same folder, since a file can only be renamed on the same disk.
     let folder = folder_of(path);
     if !folder.is_dir() {
-        return Err(fail(&format_args!("there is no folder {}", folder.display())));
+        return Err(cannot_write(path, &format_args!("there is no folder {}", folder.display())));
     }
 
     let mut prefix = std::ffi::OsString::from(".");
@@ -43,15 +67,11 @@ pub fn write_aside<E: Display>(
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
 
-    // If anything fails from here on, dropping the temporary file removes it.
-    let temporary = builder.tempfile_in(folder).map_err(|error| fail(&error))?;
-    let mut writer = BufWriter::new(temporary.as_file());
-    write(&mut writer).map_err(|error| fail(&error))?;
-    // Dropping the writer would flush too, but swallow the error of a full disk.
-    writer.flush().map_err(|error| fail(&error))?;
-    drop(writer);
-    temporary.persist(path).map_err(|error| fail(&error.error))?;
-    Ok(())
+    builder.tempfile_in(folder).map_err(|error| cannot_write(path, &error))
+}
+
+fn cannot_write(path: &Path, reason: &dyn Display) -> Diagnostic {
+    Diagnostic::about(path, format!("cannot be written: {reason}"))
 }
 
 /// The folder that a file lies in.
@@ -125,7 +145,19 @@ mod tests {
             let error = write_aside(&path, |file| file.write_all(b"x")).expect_err("this cannot work");
             assert_eq!(error.file, path);
             assert!(error.message.contains(reason), "{error}");
+            assert_eq!(check_writable(&path), Err(error), "known beforehand");
         }
+    }
+
+    #[test]
+    fn a_check_beforehand_touches_nothing() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("result.txt");
+        check_writable(&path).expect("nothing is in the way");
+        assert_eq!(names_in(folder.path()), [""; 0]);
+        fs::write(&path, "earlier").expect("writing works");
+        check_writable(&path).expect("an earlier file may be replaced");
+        assert_eq!(fs::read_to_string(&path).expect("the file is there"), "earlier");
     }
 
     // Not even the superuser can create a file there.

@@ -1,0 +1,128 @@
+//! What whoever looks at the picture should know.
+
+use super::Algorithm;
+use super::numbers::counted;
+use super::session::Rendering;
+use crate::film::Anomalies;
+use crate::integrator::{Settings, Technique};
+use crate::scene::Features;
+
+/// What can be known about the picture before it is rendered.
+pub(super) fn before(algorithm: &Algorithm, features: &Features) -> Option<String> {
+    let Algorithm::PathTracer(Settings { technique, .. }) = algorithm else { return None };
+    if !features.has_lights() {
+        return Some("the scene has no lights, so the picture will be black".to_owned());
+    }
+    if *technique != Technique::Bsdf || features.point_lights == 0 {
+        return None;
+    }
+    let consequence = match features.area_lights {
+        0 => "the picture will be black".to_owned(),
+        _ => format!("{} will be missing", counted(features.point_lights as u64, "point-like light")),
+    };
+    Some(format!("a path never hits a point light by chance, so {consequence}: use --technique=nee"))
+}
+
+/// What only the finished picture tells.
+pub(super) fn after(algorithm: &Algorithm, features: &Features, rendering: &Rendering) -> Option<String> {
+    if !matches!(algorithm, Algorithm::PathTracer(_)) || before(algorithm, features).is_some() {
+        return None;
+    }
+    let is_black = rendering.film.pixels().iter().all(|pixel| pixel.sum == [0.0; 3]);
+    let lights = counted((features.area_lights + features.point_lights) as u64, "light");
+    is_black
+        .then(|| format!("the picture is black: not one sample found light, though the scene has {lights}"))
+}
+
+/// What went wrong with single samples.
+pub(super) fn anomalies(anomalies: &Anomalies) -> Option<String> {
+    let first = anomalies.first.first()?;
+    let kinds = [
+        (anomalies.non_finite, "not finite (NaN or infinite), and counted as black"),
+        (anomalies.negative, "negative"),
+    ];
+    let kinds: Vec<String> = kinds
+        .into_iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, kind)| {
+            format!("{} {kind}", if count == 1 { "1 is".into() } else { format!("{count} are") })
+        })
+        .collect();
+    let value = first.value.to_array();
+    Some(format!(
+        "of all samples, {}; the first is sample {} of pixel ({}, {}), {value:?}",
+        kinds.join(", "),
+        first.sample,
+        first.x,
+        first.y
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+    use crate::cli::DebugView;
+    use crate::film::{Anomaly, Film};
+    use crate::math::Rgb;
+
+    fn features(area_lights: usize, point_lights: usize) -> Features {
+        Features {
+            triangles: 10,
+            area_lights,
+            point_lights,
+            delta_surfaces: 0,
+            glossy_surfaces: 0,
+            lit_surfaces: 0,
+            textured_surfaces: 0,
+            smooth_surfaces: 0,
+            closed: false,
+            hierarchy: false,
+        }
+    }
+
+    fn path_tracer(technique: Technique) -> Algorithm {
+        Algorithm::PathTracer(Settings { technique, max_bounces: 8 })
+    }
+
+    #[test]
+    fn point_lights_are_not_left_to_chance_unawares() {
+        let bsdf = path_tracer(Technique::Bsdf);
+        let note = |area_lights, point_lights| before(&bsdf, &features(area_lights, point_lights));
+        assert!(note(0, 1).expect("a note").contains("black: use --technique=nee"));
+        assert!(note(2, 1).expect("a note").contains("1 point-like light will be missing"));
+        assert_eq!(note(2, 0), None);
+        assert_eq!(before(&path_tracer(Technique::Nee), &features(0, 1)), None);
+    }
+
+    #[test]
+    fn without_lights_there_is_nothing_to_see_but_surfaces() {
+        for technique in Technique::ALL {
+            let note = before(&path_tracer(technique), &features(0, 0));
+            assert!(note.expect("a note").contains("no lights"));
+        }
+        assert_eq!(before(&Algorithm::Debug(DebugView::Normals), &features(0, 0)), None);
+    }
+
+    #[test]
+    fn a_black_picture_is_remarked_once() {
+        let film = Film::new(2, 2);
+        let black = Rendering { film, elapsed: Duration::from_secs(1), interrupted: false };
+        let note = |technique| after(&path_tracer(technique), &features(0, 1), &black);
+        assert!(note(Technique::Nee).expect("a note").contains("the scene has 1 light"));
+        assert_eq!(note(Technique::Bsdf), None, "it was said before");
+    }
+
+    #[test]
+    fn anomalies_are_counted_and_the_first_is_named() {
+        assert_eq!(anomalies(&Anomalies::default()), None);
+        let first = vec![Anomaly { x: 3, y: 4, sample: 7, value: Rgb::new(f32::NAN, 0.5, -1.0) }];
+        let text = anomalies(&Anomalies { non_finite: 1, negative: 12, first }).expect("a warning");
+        assert_eq!(
+            text,
+            "of all samples, 1 is not finite (NaN or infinite), and counted as black, 12 are negative; the first is \
+             sample 7 of pixel (3, 4), [NaN, 0.5, -1.0]"
+        );
+    }
+}

@@ -1,0 +1,160 @@
+//! Rendering in passes, until the limits are reached or someone interrupts.
+
+use std::fmt;
+use std::panic::{self, AssertUnwindSafe};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use super::exit::Failure;
+use super::numbers::{counted, speed};
+use super::passes::Passes;
+use super::plan::Plan;
+use super::progress::State;
+use crate::film::Film;
+use crate::integrator::Integrator;
+use crate::render::render;
+use crate::scene::Scene;
+
+/// A picture, and how it came about.
+#[derive(Debug)]
+pub(super) struct Rendering {
+    pub(super) film: Film,
+    /// Wall-clock time.
+    pub(super) elapsed: Duration,
+    /// True if `stop` ended it before its limits: then some pixels may have more samples than others.
+    pub(super) interrupted: bool,
+}
+
+/// Renders as planned. After each pass, `watch` sees the film and how far it has come.
+///
+/// # Errors
+///
+/// If the threads cannot be started, or the integrator panics.
+pub(super) fn render_scene(
+    integrator: &dyn Integrator,
+    scene: &Scene,
+    plan: &Plan,
+    stop: &AtomicBool,
+    mut watch: impl FnMut(&Film, &State),
+) -> Result<Rendering, Failure> {
+    // Zero threads: as many as there are processors.
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(plan.threads.unwrap_or(0)).build()?;
+    let mut film = Film::new(plan.width, plan.height);
+    let mut passes = Passes::new(plan.limits);
+    let start = Instant::now();
+    let mut interrupted = false;
+    while let Some(pass) = passes.next(start.elapsed()) {
+        let pass_start = Instant::now();
+        let mut take = || {
+            pool.install(|| render(integrator, scene, &mut film, pass.clone(), plan.seed, stop));
+        };
+        // A film that was left in the middle is of no further use, so nothing broken can be seen.
+        panic::catch_unwind(AssertUnwindSafe(&mut take)).map_err(|_| Failure::Panic)?;
+        interrupted = stop.load(Ordering::Relaxed);
+        if interrupted {
+            break;
+        }
+        passes.finish(pass, pass_start.elapsed());
+        watch(&film, &State::new(&passes, start.elapsed(), plan));
+    }
+    Ok(Rendering { film, elapsed: start.elapsed(), interrupted })
+}
+
+impl fmt::Display for Rendering {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let counts = || self.film.pixels().iter().map(|pixel| pixel.count);
+        let (fewest, most, all) = (self.film.samples(), counts().max().unwrap_or(0), counts().sum::<u64>());
+        if self.interrupted {
+            write!(f, "interrupted: ")?;
+        }
+        if fewest < most {
+            write!(f, "{fewest} to ")?;
+        }
+        let seconds = self.elapsed.as_secs_f64();
+        let samples = counted(most, "sample");
+        write!(f, "{samples} per pixel in {seconds:.2} s, {}", speed(all as f64 / seconds.max(1e-9)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::{Rgb, Vec3};
+    use crate::ray::Ray;
+    use crate::sampler::Sampler;
+    use crate::scene::{CameraDescription, Defaults, SceneDescription};
+
+    /// Gives random numbers, and raises a flag or panics when it has given so many.
+    struct Noise<'a> {
+        calls: std::sync::atomic::AtomicU64,
+        at: u64,
+        event: &'a (dyn Fn() + Sync),
+    }
+
+    impl<'a> Noise<'a> {
+        fn new(at: u64, event: &'a (dyn Fn() + Sync)) -> Self {
+            Self { calls: 0.into(), at, event }
+        }
+    }
+
+    impl Integrator for Noise<'_> {
+        fn radiance(&self, _: &Scene, _: Ray, sampler: &mut Sampler) -> Rgb {
+            if self.calls.fetch_add(1, Ordering::Relaxed) + 1 == self.at {
+                (self.event)();
+            }
+            Rgb::gray(sampler.next_1d())
+        }
+    }
+
+    fn empty_scene() -> Scene {
+        let camera = CameraDescription { eye: Vec3::ZERO, center: Vec3::Z, up: Vec3::Y, fov: 60.0 };
+        Scene::new(&SceneDescription {
+            camera,
+            meshes: vec![],
+            materials: vec![],
+            textures: vec![],
+            lights: vec![],
+            defaults: Defaults::default(),
+        })
+    }
+
+    fn plan(options: &str) -> Plan {
+        let line = format!("arty x.yml --width=8 --height=6 --threads=2 {options}");
+        let args = super::super::args::Args::read(line.split_whitespace().map(Into::into));
+        Plan::new(&args.expect("a valid command line"), Defaults::default()).expect("small")
+    }
+
+    #[test]
+    fn passes_do_not_change_the_picture() {
+        let (scene, plan, stop) = (empty_scene(), plan("--samples=37 --seed=5"), AtomicBool::new(false));
+        let noise = Noise::new(0, &|| ());
+        let mut watched = Vec::new();
+        let in_passes = render_scene(&noise, &scene, &plan, &stop, |film, _| watched.push(film.samples()));
+        let in_passes = in_passes.expect("it works");
+        let mut at_once = Film::new(8, 6);
+        render(&noise, &scene, &mut at_once, 0..37, 5, &stop);
+        assert_eq!(in_passes.film.pixels(), at_once.pixels());
+        assert!(watched.len() > 1 && watched.last() == Some(&37), "there were passes: {watched:?}");
+        assert!(!in_passes.interrupted);
+    }
+
+    #[test]
+    fn an_interruption_keeps_what_is_there() {
+        let (scene, plan, stop) = (empty_scene(), plan("--time=3600"), AtomicBool::new(false));
+        let raise = || stop.store(true, Ordering::Relaxed);
+        // The first pass has 48 samples, so this is in a later one.
+        let rendering = render_scene(&Noise::new(100, &raise), &scene, &plan, &stop, |_, _| ());
+        let rendering = rendering.expect("an interruption is no failure");
+        assert!(rendering.interrupted && rendering.film.samples() >= 1);
+        assert!(rendering.to_string().starts_with("interrupted: "), "{rendering}");
+    }
+
+    #[test]
+    fn a_panic_of_the_algorithm_is_a_failure_with_its_own_status() {
+        let (scene, plan, stop) = (empty_scene(), plan("--samples=9"), AtomicBool::new(false));
+        let noise = Noise::new(100, &|| panic!("on purpose"));
+        let failure = render_scene(&noise, &scene, &plan, &stop, |_, _| ()).expect_err("it panicked");
+        assert!(matches!(failure, Failure::Panic));
+        assert_eq!(failure.exit() as u8, 3);
+    }
+}

@@ -1,0 +1,111 @@
+//! The student's program and the solution are the same but for what the student has to fill in.
+//!
+//! The files are read when the test runs, so that nothing in `skeleton/` depends on the solution.
+
+use std::collections::HashSet;
+use std::fs;
+use std::path::Path;
+
+/// The only code that stands in the starter's blocks: without it, the starter would not compile.
+const STARTER_CODE: [&str; 1] = ["let weight = 1.0;"];
+
+/// A place to fill in.
+struct Block {
+    /// The tasks that it belongs to, such as `5.1a, 5.2b`.
+    tasks: String,
+    /// The lines between its marks.
+    lines: Vec<String>,
+}
+
+/// A hand-in file, taken apart.
+struct HandIn {
+    blocks: Vec<Block>,
+    /// Everything that is not within a block, marks included.
+    frame: String,
+}
+
+fn text(package: &str, file: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(package).join(file);
+    fs::read_to_string(path).unwrap_or_else(|error| panic!("{package}/{file}: {error}"))
+}
+
+fn hand_in(package: &str) -> HandIn {
+    let text = text(package, "src/algorithms/render_pt.rs");
+    let mut hand_in = HandIn { blocks: Vec::new(), frame: String::new() };
+    let mut open: Option<Block> = None;
+    for line in text.split_inclusive('\n') {
+        let mark = line.trim();
+        if let Some(end) = mark.strip_prefix("// END ") {
+            let block = open.take().unwrap_or_else(|| panic!("{package}: `{mark}` ends nothing"));
+            assert_eq!(block.tasks, end, "{package}: a block has one name at both ends");
+            hand_in.blocks.push(block);
+        }
+        match (&mut open, mark.strip_prefix("// TASK ")) {
+            (Some(block), None) => block.lines.push(line.to_owned()),
+            (None, None) => hand_in.frame.push_str(line),
+            (None, Some(begin)) => {
+                let (tasks, _) =
+                    begin.split_once(':').unwrap_or_else(|| panic!("{package}: `{mark}` has no colon"));
+                open = Some(Block { tasks: tasks.to_owned(), lines: Vec::new() });
+                hand_in.frame.push_str(line);
+            }
+            (Some(block), Some(_)) => panic!("{package}: `{mark}` begins within {}", block.tasks),
+        }
+    }
+    if let Some(block) = open {
+        panic!("{package}: the block {} has no end", block.tasks);
+    }
+    hand_in
+}
+
+/// What a line says, as code or as a comment; `None` if it has no word.
+fn content(line: &str) -> Option<&str> {
+    let content = line.trim().trim_start_matches('/').trim();
+    content.contains(|c: char| c.is_alphanumeric()).then_some(content)
+}
+
+#[test]
+fn both_programs_start_in_the_same_way() {
+    assert_eq!(text("skeleton", "src/main.rs"), text("solution", "src/main.rs"));
+}
+
+#[test]
+fn hand_ins_differ_within_their_blocks_only() {
+    let (starter, solution) = (hand_in("skeleton"), hand_in("solution"));
+    assert_eq!(starter.frame, solution.frame);
+    let tasks = |hand_in: &HandIn| hand_in.blocks.iter().map(|block| block.tasks.clone()).collect::<Vec<_>>();
+    assert_eq!(tasks(&starter), tasks(&solution));
+    for task in ["5.1a", "5.1b", "5.2b"] {
+        assert!(
+            tasks(&starter).iter().any(|tasks| tasks.split(", ").any(|it| it == task)),
+            "{task} has a block"
+        );
+    }
+}
+
+#[test]
+fn every_block_of_the_solution_is_filled_in() {
+    for block in hand_in("solution").blocks {
+        let is_code = |line: &String| content(line).is_some() && !line.trim().starts_with("//");
+        assert!(block.lines.iter().any(is_code), "the block {} has no code", block.tasks);
+    }
+}
+
+#[test]
+fn the_starter_has_nothing_of_the_solution() {
+    let solution = hand_in("solution");
+    let secrets: HashSet<&str> =
+        solution.blocks.iter().flat_map(|block| &block.lines).filter_map(|line| content(line)).collect();
+    let starter = hand_in("skeleton");
+    for line in starter.blocks.iter().flat_map(|block| &block.lines) {
+        let line = line.trim();
+        // Not even in a comment.
+        if let Some(content) = content(line) {
+            assert!(!secrets.contains(content), "`{line}` is from the solution");
+        }
+        assert!(
+            line.is_empty() || line.starts_with("//") || STARTER_CODE.contains(&line),
+            "`{line}` is code that the starter should not have"
+        );
+    }
+}
