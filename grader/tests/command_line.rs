@@ -1,0 +1,71 @@
+//! The program as its users call it.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn grader(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));
+    command.args(arguments).current_dir(folder).output().expect("the program starts")
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// The student file, from anywhere.
+fn student_file() -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../skeleton/src/algorithms/render_pt.rs")
+        .display()
+        .to_string()
+}
+
+#[test]
+fn a_grade_ends_with_0_whatever_the_points_unless_fewer_than_asked_for() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = student_file();
+    let graded = grader(folder.path(), &["grade", &file, "--only=point_plane", "--out=here"]);
+    assert_eq!(graded.status.code(), Some(0), "{}", stderr(&graded));
+    let report =
+        std::fs::read_to_string(folder.path().join("here/report.json")).expect("the report is there");
+    let report: serde_json::Value = serde_json::from_str(&report).expect("the report is JSON");
+    assert_eq!(report["schema"], "arty-report/1");
+    for key in [
+        "submission",
+        "assignment",
+        "points",
+        "tasks",
+        "checks",
+        "left_out",
+        "diagnosis",
+        "numerics",
+        "cost",
+        "sandbox",
+        "provenance",
+    ] {
+        assert!(!report[key].is_null(), "{key}");
+    }
+    let too_few = grader(folder.path(), &["grade", &file, "--only=point_plane", "--fail-under=1"]);
+    assert_eq!(too_few.status.code(), Some(1), "{}", stderr(&too_few));
+}
+
+#[test]
+fn what_staff_or_student_typed_wrong_ends_with_2_and_one_clear_message() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = student_file();
+    let empty = folder.path().join("empty");
+    std::fs::create_dir(&empty).expect("it can be made");
+    let empty = empty.display().to_string();
+    for (arguments, expected) in [
+        (vec!["grade", "nowhere.rs"], "nowhere.rs"),
+        (vec!["grade", &empty], "there is no render_pt.rs"),
+        (vec!["grade", &file, "--only=nonsense"], "--only: no such check"),
+        (vec!["grade", &file, "--assignment=99"], "rubric.yml"),
+        (vec!["reference", "nonsense"], "no check uses a scene `nonsense`"),
+        (vec!["grade", "--seed=x"], "invalid value"),
+    ] {
+        let output = grader(folder.path(), &arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(expected), "{arguments:?}: {}", stderr(&output));
+    }
+}
