@@ -22,7 +22,8 @@ impl Scene {
         builder.surfaces.extend(description.materials.iter().map(|material| Surface {
             diffuse: material.diffuse,
             diffuse_map: material.diffuse_map,
-            specular: material.specular,
+            // A lobe that reflects nothing would only take samples away from the other one.
+            specular: if material.specular.is_black() { Specular::None } else { material.specular },
         }));
         for mesh in &description.meshes {
             for triangle in &mesh.triangles {
