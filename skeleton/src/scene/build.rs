@@ -140,6 +140,15 @@ impl Builder {
                 .count()
         };
         let area_lights = self.lights.iter().filter(|light| light.has_area()).count();
+        // Light gets lost through glass as through a hole.
+        let opaque: Vec<[Vec3; 3]> = self
+            .triangles
+            .iter()
+            .filter(|triangle| {
+                !matches!(self.surfaces[triangle.surface as usize].specular, Specular::Glass { .. })
+            })
+            .map(|triangle| triangle.vertices)
+            .collect();
         Features {
             triangles: self.triangles.len(),
             area_lights,
@@ -155,7 +164,7 @@ impl Builder {
             smooth_surfaces: count(&|triangle, _| {
                 self.attributes.get(triangle.attributes as usize).is_some_and(|it| it.normals.is_some())
             }),
-            closed: encloses(&self.triangles, description.camera.eye),
+            closed: encloses(&opaque, description.camera.eye),
             hierarchy: accel.stats().nodes > 0,
         }
     }

@@ -114,7 +114,9 @@ impl Specular {
         match self {
             Self::None => true,
             Self::Phong { reflectance, .. } | Self::Mirror { reflectance } => reflectance.is_black(),
-            Self::Glass { reflectance, transmittance, .. } => reflectance.is_black() && transmittance.is_black(),
+            Self::Glass { reflectance, transmittance, .. } => {
+                reflectance.is_black() && transmittance.is_black()
+            }
         }
     }
 }
