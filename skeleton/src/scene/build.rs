@@ -55,7 +55,9 @@ impl Builder {
                 self.push_light(Shape::Spot(SpotLight::new(position, direction, inner, outer, power)));
             }
             LightDescription::Triangle { vertices, radiance } => {
-                let Some(normal) = front_normal(vertices) else {
+                let (Some(normal), Some(light)) =
+                    (front_normal(vertices), TriangleLight::new(vertices, radiance))
+                else {
                     self.degenerate += 1;
                     return;
                 };
@@ -67,7 +69,7 @@ impl Builder {
                     });
                     self.first_material = 1;
                 }
-                let light = self.push_light(Shape::Triangle(TriangleLight::new(vertices, radiance)));
+                let light = self.push_light(Shape::Triangle(light));
                 self.triangles.push(Triangle { vertices, normal, surface: 0, light, attributes: NONE });
             }
         }
@@ -81,8 +83,11 @@ impl Builder {
         };
         let light = if material.emission.is_black() {
             NONE
+        } else if let Some(light) = TriangleLight::new(vertices, material.emission) {
+            self.push_light(Shape::Triangle(light))
         } else {
-            self.push_light(Shape::Triangle(TriangleLight::new(vertices, material.emission)))
+            self.degenerate += 1;
+            return;
         };
         let normals = triangle.normals.map(|indices| indices.map(|index| mesh.normals[index as usize]));
         // Texture coordinates are kept only where there is a texture to look up.
