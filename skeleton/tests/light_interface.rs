@@ -22,10 +22,7 @@ fn scene_of(light: LightDescription) -> Scene {
 const AXIS: Vec3 = Vec3::new(0.3, -0.5, 2.0);
 const POSITION: Vec3 = Vec3::new(4.0, 5.0, -6.0);
 
-fn spot(inner: f32, outer: f32) -> Scene {
-    let power = Rgb::new(3.0, 7.0, 11.0);
-    scene_of(LightDescription::Spot { position: POSITION, direction: AXIS, inner, outer, power })
-}
+const POWER: Rgb = Rgb::new(3.0, 7.0, 11.0);
 
 const TRIANGLE: [Vec3; 3] = [Vec3::new(1.0, 0.0, 0.0), Vec3::new(3.0, 0.5, 0.0), Vec3::new(1.5, 2.0, 1.0)];
 
@@ -51,12 +48,11 @@ fn intensity(light: &Light, w: Vec3) -> f64 {
 
 #[test]
 fn a_point_light_spreads_its_power_evenly() {
-    let power = Rgb::new(3.0, 7.0, 11.0);
-    let scene = scene_of(LightDescription::Point { position: POSITION, power });
+    let scene = scene_of(LightDescription::Point { position: POSITION, power: POWER });
     let light = &scene.lights()[0];
-    assert!((light.power() / power.luminance() - 1.0).abs() < 1e-6 && !light.has_area());
+    assert!((light.power() / POWER.luminance() - 1.0).abs() < 1e-6 && !light.has_area());
     for (w, _) in spiral(100) {
-        assert!((intensity(light, w) * 4.0 * PI / f64::from(power.luminance()) - 1.0).abs() < 1e-6);
+        assert!((intensity(light, w) * 4.0 * PI / f64::from(POWER.luminance()) - 1.0).abs() < 1e-6);
     }
     assert!(
         light.sample_direct(POSITION, &mut Sampler::new(0, (0, 0), 0)).is_none(),
@@ -66,7 +62,7 @@ fn a_point_light_spreads_its_power_evenly() {
 
 #[test]
 fn a_spot_light_sends_all_its_power_into_its_cone() {
-    let power = f64::from(Rgb::new(3.0, 7.0, 11.0).luminance());
+    let power = f64::from(POWER.luminance());
     let polar = Polar::around(AXIS.as_dvec3());
     for (inner, outer) in [
         (10.0, 20.0),
@@ -78,31 +74,23 @@ fn a_spot_light_sends_all_its_power_into_its_cone() {
         (1.0, 2.0),
         (0.05, 0.1),
     ] {
-        let scene = spot(inner, outer);
+        // In the origin, where directions to points are exact.
+        let (position, direction) = (Vec3::ZERO, AXIS);
+        let scene = scene_of(LightDescription::Spot { position, direction, inner, outer, power: POWER });
         let light = &scene.lights()[0];
         assert!(
             (f64::from(light.power()) / power - 1.0).abs() < 1e-5,
             "{inner}°–{outer}°: {}",
             light.power()
         );
-        // From a place within the light's reach of precision: directions are made from differences of points.
-        let edge = |degrees: f32| 2.0 * (0.5 * f64::from(degrees).to_radians()).sin().powi(2);
-        let mut sampler = Sampler::new(1, (0, 0), 0);
-        let center = scene_of(LightDescription::Spot {
-            position: Vec3::ZERO,
-            direction: AXIS,
-            inner,
-            outer,
-            power: Rgb::new(3.0, 7.0, 11.0),
-        });
-        let mut towards = |w: Vec3| {
-            let sample = center.lights()[0].sample_direct(w, &mut sampler);
+        let towards = |w: Vec3| {
+            let sample = light.sample_direct(w, &mut Sampler::new(1, (0, 0), 0));
             sample.map_or(0.0, |sample| f64::from(sample.intensity.luminance()))
         };
-        let values = std::cell::RefCell::new(&mut towards);
+        let edge = |degrees: f32| 2.0 * (0.5 * f64::from(degrees).to_radians()).sin().powi(2);
         let total: f64 = [(0.0, edge(inner)), (edge(inner), edge(outer)), (edge(outer), 2.0)]
             .into_iter()
-            .map(|ring| over_ring(&polar, ring, (0.0, 1.0), 64, &|w| (values.borrow_mut())(w)))
+            .map(|ring| over_ring(&polar, ring, (0.0, 1.0), 64, &towards))
             .sum();
         assert!((total / power - 1.0).abs() < 1e-3, "{inner}°–{outer}°: {total}, expected {power}");
     }
@@ -110,7 +98,9 @@ fn a_spot_light_sends_all_its_power_into_its_cone() {
 
 #[test]
 fn a_spot_light_falls_off_smoothly_between_its_angles() {
-    let scene = spot(20.0, 40.0);
+    let (position, direction) = (POSITION, AXIS);
+    let scene =
+        scene_of(LightDescription::Spot { position, direction, inner: 20.0, outer: 40.0, power: POWER });
     let polar = Polar::around(AXIS.as_dvec3());
     let at =
         |degrees: f64| intensity(&scene.lights()[0], polar.direction(1.0 - degrees.to_radians().cos(), 1.0));
