@@ -39,11 +39,12 @@ pub(super) fn encloses(triangles: &[[Vec3; 3]], eye: Vec3) -> bool {
     odd.contains(&[true; DIRECTIONS.len()])
 }
 
-/// Directions that no edge of a real scene lies along; one would do, the others guard against chance.
+/// Directions with no simple ratios, so that no diagonal of a box lies along them. One would do, the others guard
+/// against chance. Their lengths do not matter.
 const DIRECTIONS: [DVec3; 3] = [
-    DVec3::new(0.534_522_483_8, 0.801_783_725_7, 0.267_261_241_9),
+    DVec3::new(0.567_143_290_4, 0.739_085_133_2, 0.261_497_212_8),
     DVec3::new(-0.618_033_988_7, 0.141_592_653_5, 0.773_239_104_1),
-    DVec3::new(0.271_828_182_8, -0.577_215_664_9, -0.770_045_912_3),
+    DVec3::new(0.271_828_182_8, -0.577_215_664_9, -0.763_932_022_5),
 ];
 
 /// True if the half-line from the origin crosses the triangle.
