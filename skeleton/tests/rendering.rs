@@ -5,7 +5,6 @@ mod common;
 pub mod render_pt;
 
 use std::f64::consts::PI;
-use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
 use arty::film::{Anomalies, Film};
@@ -36,18 +35,14 @@ fn tracer(max_bounces: u32) -> PathTracer {
     PathTracer::new(Settings { technique: Technique::Bsdf, max_bounces })
 }
 
-/// Renders the passes one after the other, in a pool of its own.
-fn film(
-    integrator: &dyn Integrator,
-    scene: &Scene,
-    threads: usize,
-    passes: &[Range<u64>],
-    seed: u64,
-) -> Film {
+/// Renders one pass after the other, each from one bound of the sample numbers to the next, in a pool of its own.
+fn film(integrator: &dyn Integrator, scene: &Scene, threads: usize, bounds: &[u64], seed: u64) -> Film {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started");
     let mut film = Film::new(13, 7);
-    for pass in passes {
-        pool.install(|| render(integrator, scene, &mut film, pass.clone(), seed, &AtomicBool::new(false)));
+    for pass in bounds.windows(2) {
+        pool.install(|| {
+            render(integrator, scene, &mut film, pass[0]..pass[1], seed, &AtomicBool::new(false))
+        });
     }
     film
 }
@@ -55,15 +50,15 @@ fn film(
 #[test]
 fn images_do_not_depend_on_threads_nor_on_passes() {
     let (scene, tracer) = (lit_room(), tracer(6));
-    let expected = film(&tracer, &scene, 1, &[0..12], SEED);
+    let expected = film(&tracer, &scene, 1, &[0, 12], SEED);
     assert_eq!(expected.samples(), 12);
     for threads in [1, 2, 3, 8] {
-        for passes in [&[0..12][..], &[0..1, 1..12], &[0..5, 5..5, 5..9, 9..12]] {
-            let other = film(&tracer, &scene, threads, passes, SEED);
-            assert!(expected.pixels() == other.pixels(), "{threads} threads, {passes:?}");
+        for bounds in [&[0, 12][..], &[0, 1, 12], &[0, 5, 5, 9, 12]] {
+            let other = film(&tracer, &scene, threads, bounds, SEED);
+            assert!(expected.pixels() == other.pixels(), "{threads} threads, {bounds:?}");
         }
     }
-    let different = film(&tracer, &scene, 1, &[0..12], SEED + 1);
+    let different = film(&tracer, &scene, 1, &[0, 12], SEED + 1);
     assert!(
         expected.pixels().iter().zip(different.pixels()).all(|(a, b)| a != b),
         "another seed, another image"
@@ -73,7 +68,7 @@ fn images_do_not_depend_on_threads_nor_on_passes() {
 #[test]
 fn any_path_can_be_computed_again() {
     let (scene, tracer) = (lit_room(), tracer(6));
-    let film = film(&tracer, &scene, 2, &[0..4], SEED);
+    let film = film(&tracer, &scene, 2, &[0, 4], SEED);
     let camera = scene.camera(13, 7);
     for (place, pixel) in film.pixels().iter().enumerate() {
         let at = (place as u32 % 13, place as u32 / 13);
@@ -129,15 +124,15 @@ fn anomalies_are_counted_and_the_first_are_named_whatever_the_passes() {
         }
     }
     for threads in [1, 3] {
-        for passes in [&[0..10][..], &[0..3, 3..4, 4..10]] {
-            let film = film(&Faulty, &scene, threads, passes, SEED);
+        for bounds in [&[0, 10][..], &[0, 3, 4, 10]] {
+            let film = film(&Faulty, &scene, threads, bounds, SEED);
             let anomalies = film.anomalies();
             let negative = all.iter().filter(|(.., finite)| *finite).count() as u64;
             assert!(negative > 50 && !anomalies.is_empty());
             assert_eq!((anomalies.negative, anomalies.non_finite), (negative, all.len() as u64 - negative));
             let named: Vec<_> =
                 anomalies.first.iter().map(|it| (it.sample, it.y, it.x, it.value.is_finite())).collect();
-            assert_eq!(named, all[..Anomalies::KEPT], "{threads} threads, {passes:?}");
+            assert_eq!(named, all[..Anomalies::KEPT], "{threads} threads, {bounds:?}");
             assert!(film.pixels().iter().all(|pixel| pixel.count == 10 && pixel.mean().is_finite()));
         }
     }
@@ -186,7 +181,7 @@ fn without_bounces_only_emitters_are_seen() {
     scene.lights.push(LightDescription::Point { position: Vec3::ZERO, power: Rgb::gray(1e6) });
     for technique in Technique::ALL {
         let tracer = PathTracer::new(Settings { technique, max_bounces: 0 });
-        let film = film(&tracer, &Scene::new(&scene), 1, &[0..3], SEED);
+        let film = film(&tracer, &Scene::new(&scene), 1, &[0, 3], SEED);
         assert!(film.pixels().iter().all(|pixel| pixel.mean() == Rgb::new(1.0, 2.0, 3.0)), "{technique}");
     }
 }
@@ -199,7 +194,7 @@ fn each_bounce_adds_a_term_of_the_series() {
     add(&mut scene, &walls, Material { emission: Rgb::gray(1.0), ..diffuse(0.5) });
     let scene = Scene::new(&scene);
     for (bounces, expected) in [(0, 1.0), (1, 1.5), (2, 1.75), (4, 1.9375)] {
-        for pixel in film(&tracer(bounces), &scene, 1, &[0..40], SEED).pixels() {
+        for pixel in film(&tracer(bounces), &scene, 1, &[0, 40], SEED).pixels() {
             assert!((pixel.mean().g - expected).abs() < 1e-5, "{bounces}: {:?}", pixel.mean());
         }
     }

@@ -66,7 +66,7 @@ fn a_furnace_glows_with_the_geometric_series() {
         for k in [0, 1, 2, 8] {
             let exact = radiance * (1.0 - r.powi(k + 1)) / (1.0 - r);
             // Russian roulette, from the fifth bounce on, makes most of the variance.
-            let samples = if k > 4 { 130_000 } else { 6_000 };
+            let samples = if k > 4 { 130_000 } else { 40_000 };
             let estimate = mean(&scene, technique, k as u32, samples);
             let what = format!("{technique}, {k} bounces");
             if k == 0 {
