@@ -1,6 +1,6 @@
 //! Glass against the laws of Fresnel and Snell, in double precision and from their textbook forms.
 //!
-//! Statistical tests: 40 shares at 1e-6 each; a correct program fails with a probability below 4e-5.
+//! Statistical tests: 17 shares at 1e-6 each; a correct program fails with a probability below 2e-5.
 
 mod common;
 

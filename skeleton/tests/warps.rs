@@ -1,7 +1,7 @@
 //! Maps from random numbers to directions, against their densities.
 //!
 //! Each map is inverted: if it has the density that it claims, the distribution function of what it gives is uniform.
-//! Twelve χ² tests at 1e-5 each: a correct program fails with a probability below 1.2e-4 (seeds are fixed).
+//! Nine χ² tests at 1e-5 each: a correct program fails with a probability below 1e-4 (seeds are fixed).
 
 mod common;
 

@@ -1,6 +1,6 @@
 //! The filled-in path tracer against closed forms of light transport.
 //!
-//! Statistical tests: 48 means at 1e-6 each (Student's t over 64 batches); a correct program fails with a probability
+//! Statistical tests: 42 means at 1e-6 each (Student's t over 64 batches); a correct program fails with a probability
 //! below 5e-5, and seeds are fixed. Each test also demands its resolution, the bias that it would see half of the time
 //! or more: 0.5 % in furnaces and between planes, 1 to 5 % where it says so.
 
