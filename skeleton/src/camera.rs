@@ -21,7 +21,8 @@ impl Camera {
     pub fn new(description: &CameraDescription, width: u32, height: u32) -> Self {
         let CameraDescription { eye, center, up, fov } = *description;
         let forward = direction(eye, center).0;
-        let right = forward.cross(up).normalize();
+        // Both are unit vectors, so that no length of `up` over- or underflows in their product.
+        let right = direction(Vec3::ZERO, forward.cross(direction(Vec3::ZERO, up).0)).0;
         let down = forward.cross(right);
         let half_width = (0.5 * fov).to_radians().tan();
         let pixel = 2.0 * half_width / width as f32;

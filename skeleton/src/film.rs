@@ -33,7 +33,7 @@ pub struct Anomalies {
     pub non_finite: u64,
     /// How many were finite but negative in a channel.
     pub negative: u64,
-    /// The first of them, in the order of pixels and samples.
+    /// The first [`KEPT`](Self::KEPT) of them: by the number of the sample, then row by row, then by column.
     pub first: Vec<Anomaly>,
 }
 
@@ -75,7 +75,8 @@ impl Film {
     /// The rows, to be filled by several threads at once.
     pub(crate) fn rows_mut(&mut self) -> impl rayon::iter::IndexedParallelIterator<Item = &mut [Pixel]> {
         use rayon::slice::ParallelSliceMut;
-        self.pixels.par_chunks_mut(self.width as usize)
+        // A film without columns has no rows either, but chunks must have a length.
+        self.pixels.par_chunks_mut((self.width as usize).max(1))
     }
 
     /// The number of samples of the pixel that has fewest: all have the same, unless rendering was interrupted.
@@ -154,8 +155,16 @@ impl Anomalies {
         } else {
             self.non_finite += 1;
         }
-        if self.first.len() < Self::KEPT {
-            self.first.push(Anomaly { x, y, sample, value });
+        self.keep(Anomaly { x, y, sample, value });
+    }
+
+    /// Remembers an anomaly if it is among the first, whatever the order in which they are reported.
+    fn keep(&mut self, anomaly: Anomaly) {
+        let order = |anomaly: &Anomaly| (anomaly.sample, anomaly.y, anomaly.x);
+        let place = self.first.partition_point(|other| order(other) < order(&anomaly));
+        if place < Self::KEPT {
+            self.first.insert(place, anomaly);
+            self.first.truncate(Self::KEPT);
         }
     }
 
@@ -163,9 +172,9 @@ impl Anomalies {
     pub(crate) fn merge(&mut self, other: Self) {
         self.non_finite += other.non_finite;
         self.negative += other.negative;
-        self.first.extend(other.first);
-        self.first.sort_by_key(|anomaly| (anomaly.sample, anomaly.y, anomaly.x));
-        self.first.truncate(Self::KEPT);
+        for anomaly in other.first {
+            self.keep(anomaly);
+        }
     }
 }
 

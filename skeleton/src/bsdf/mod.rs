@@ -108,7 +108,8 @@ impl Bsdf {
     ///
     /// Zero from the horizon down. Of a mixture with a delta lobe only the other lobe counts, with its share. The
     /// integral over all directions is at most 1; what is missing are delta lobes and samples that came out below
-    /// the horizon, for which `sample` gives `None`.
+    /// the horizon, for which `sample` gives `None`. A black material keeps the density of white, though nothing is
+    /// drawn from it.
     #[inline]
     pub fn pdf(&self, wi: Vec3) -> f32 {
         if !self.geometry.reflects(wi) {
@@ -140,7 +141,7 @@ impl Bsdf {
         let wi = lobe.sample_direction(&self.geometry, sampler)?;
         let (f, pdf) = (self.eval(wi), self.pdf(wi));
         // A density of zero or infinity: below the horizon, or beyond what f32 can hold.
-        if !(pdf > 0.0 && pdf.is_finite() && f.is_finite()) {
+        if !(pdf > 0.0 && pdf.is_finite() && f.is_finite()) || f.is_black() {
             return None;
         }
         Some(BsdfSample { wi, f, pdf, cos: self.geometry.normal.dot(wi).abs(), is_delta: false })

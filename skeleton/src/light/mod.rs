@@ -64,13 +64,13 @@ impl Light {
 
     /// Draws a random point of this light, as seen from the point `from` (world space).
     ///
-    /// `None` if no light goes from there to `from`: behind the light, in its plane, outside of its cone. Then
-    /// this sample contributes nothing. Whether anything stands between is not looked at:
+    /// `None` if no light goes from there to `from`: behind the light, in its plane, outside of its cone, at no
+    /// distance. Then this sample contributes nothing. Whether anything stands between is not looked at:
     /// see [`Scene::occluded`](crate::scene::Scene::occluded).
     #[inline]
     pub fn sample_direct(&self, from: Vec3, sampler: &mut Sampler) -> Option<DirectSample> {
         match &self.shape {
-            Shape::Point(light) => Some(light.sample_direct()),
+            Shape::Point(light) => light.sample_direct(from),
             Shape::Spot(light) => light.sample_direct(from),
             Shape::Triangle(light) => light.sample_direct(from, sampler),
         }

@@ -18,8 +18,14 @@ impl PointLight {
     }
 
     #[inline]
-    pub(super) fn sample_direct(&self) -> DirectSample {
-        DirectSample { point: self.position, intensity: self.intensity, pdf_area: 1.0, cos: 1.0 }
+    pub(super) fn sample_direct(&self, from: Vec3) -> Option<DirectSample> {
+        // From the very place of the light there is no direction to it.
+        (from != self.position).then_some(DirectSample {
+            point: self.position,
+            intensity: self.intensity,
+            pdf_area: 1.0,
+            cos: 1.0,
+        })
     }
 
     pub(super) fn power(&self) -> f32 {

@@ -1,6 +1,6 @@
 //! A point that sends light into a cone only.
 
-use std::f32::consts::{PI, TAU};
+use std::f32::consts::TAU;
 
 use super::DirectSample;
 use crate::math::{Rgb, Vec3, direction};
@@ -11,8 +11,10 @@ use crate::math::{Rgb, Vec3, direction};
 pub(crate) struct SpotLight {
     position: Vec3,
     axis: Vec3,
-    cos_inner: f32,
-    cos_outer: f32,
+    /// 1 − cos of the inner angle. In a narrow cone the cosine is 1 but for its last bits; this is not.
+    inner: f32,
+    /// 1 − cos of the outer angle.
+    outer: f32,
     intensity: Rgb,
 }
 
@@ -21,21 +23,27 @@ impl SpotLight {
     /// the mean ½, so that Φ = 2π I₀ (1 − (cos inner + cos outer) / 2).
     pub(crate) fn new(position: Vec3, axis: Vec3, inner: f32, outer: f32, power: Rgb) -> Self {
         let axis = direction(Vec3::ZERO, axis).0;
-        let (cos_inner, cos_outer) = (inner.to_radians().cos(), outer.to_radians().cos());
-        let mut light = Self { position, axis, cos_inner, cos_outer, intensity: Rgb::WHITE };
+        // 1 − cos x = 2 sin² (x / 2)
+        let one_minus_cos = |degrees: f32| 2.0 * (0.5 * degrees).to_radians().sin().powi(2);
+        let (inner, outer) = (one_minus_cos(inner), one_minus_cos(outer));
+        let mut light = Self { position, axis, inner, outer, intensity: Rgb::WHITE };
         light.intensity = power / light.solid_angle();
         light
     }
 
     /// The solid angle that full intensity would need for the same power.
     fn solid_angle(&self) -> f32 {
-        TAU * (1.0 - 0.5 * (self.cos_inner + self.cos_outer))
+        TAU * 0.5 * (self.inner + self.outer)
     }
 
     #[inline]
     pub(super) fn sample_direct(&self, from: Vec3) -> Option<DirectSample> {
-        let (w, _) = direction(self.position, from);
-        let intensity = self.intensity * self.falloff(w.dot(self.axis));
+        let (w, distance) = direction(self.position, from);
+        if distance == 0.0 {
+            return None; // the light itself asks: no direction, no way
+        }
+        // The squared distance of two unit vectors is 2 (1 − cos), exact where they almost agree.
+        let intensity = self.intensity * self.falloff(0.5 * (w - self.axis).length_squared());
         (!intensity.is_black()).then_some(DirectSample {
             point: self.position,
             intensity,
@@ -45,18 +53,18 @@ impl SpotLight {
     }
 
     #[inline]
-    fn falloff(&self, cos: f32) -> f32 {
-        if cos >= self.cos_inner {
+    fn falloff(&self, one_minus_cos: f32) -> f32 {
+        if one_minus_cos <= self.inner {
             return 1.0;
         }
-        if cos <= self.cos_outer {
+        if one_minus_cos >= self.outer {
             return 0.0;
         }
-        let t = (cos - self.cos_outer) / (self.cos_inner - self.cos_outer);
+        let t = (self.outer - one_minus_cos) / (self.outer - self.inner);
         t * t * (3.0 - 2.0 * t)
     }
 
     pub(super) fn power(&self) -> f32 {
-        self.intensity.luminance() * self.solid_angle().min(4.0 * PI)
+        self.intensity.luminance() * self.solid_angle()
     }
 }

@@ -17,11 +17,14 @@ pub(crate) struct TriangleLight {
 }
 
 impl TriangleLight {
-    pub(crate) fn new(vertices: [Vec3; 3], radiance: Rgb) -> Self {
+    /// `None` if neither `f32` nor its reciprocal holds the area: such a light would have no density.
+    pub(crate) fn new(vertices: [Vec3; 3], radiance: Rgb) -> Option<Self> {
         let [a, b, c] = vertices.map(Vec3::as_dvec3);
         let cross = (b - a).cross(c - a);
         let length = cross.length();
-        Self { vertices, normal: (cross / length).as_vec3(), area: (0.5 * length) as f32, radiance }
+        let area = (0.5 * length) as f32;
+        let normal = (cross / length).as_vec3();
+        (area.is_normal() && (1.0 / area).is_normal()).then_some(Self { vertices, normal, area, radiance })
     }
 
     #[inline]

@@ -22,7 +22,8 @@ impl Scene {
         builder.surfaces.extend(description.materials.iter().map(|material| Surface {
             diffuse: material.diffuse,
             diffuse_map: material.diffuse_map,
-            specular: material.specular,
+            // A lobe that reflects nothing would only take samples away from the other one.
+            specular: if material.specular.is_black() { Specular::None } else { material.specular },
         }));
         for mesh in &description.meshes {
             for triangle in &mesh.triangles {
@@ -54,7 +55,9 @@ impl Builder {
                 self.push_light(Shape::Spot(SpotLight::new(position, direction, inner, outer, power)));
             }
             LightDescription::Triangle { vertices, radiance } => {
-                let Some(normal) = front_normal(vertices) else {
+                let (Some(normal), Some(light)) =
+                    (front_normal(vertices), TriangleLight::new(vertices, radiance))
+                else {
                     self.degenerate += 1;
                     return;
                 };
@@ -66,7 +69,7 @@ impl Builder {
                     });
                     self.first_material = 1;
                 }
-                let light = self.push_light(Shape::Triangle(TriangleLight::new(vertices, radiance)));
+                let light = self.push_light(Shape::Triangle(light));
                 self.triangles.push(Triangle { vertices, normal, surface: 0, light, attributes: NONE });
             }
         }
@@ -80,8 +83,11 @@ impl Builder {
         };
         let light = if material.emission.is_black() {
             NONE
+        } else if let Some(light) = TriangleLight::new(vertices, material.emission) {
+            self.push_light(Shape::Triangle(light))
         } else {
-            self.push_light(Shape::Triangle(TriangleLight::new(vertices, material.emission)))
+            self.degenerate += 1;
+            return;
         };
         let normals = triangle.normals.map(|indices| indices.map(|index| mesh.normals[index as usize]));
         // Texture coordinates are kept only where there is a texture to look up.
@@ -139,6 +145,15 @@ impl Builder {
                 .count()
         };
         let area_lights = self.lights.iter().filter(|light| light.has_area()).count();
+        // Light gets lost through glass as through a hole.
+        let opaque: Vec<[Vec3; 3]> = self
+            .triangles
+            .iter()
+            .filter(|triangle| {
+                !matches!(self.surfaces[triangle.surface as usize].specular, Specular::Glass { .. })
+            })
+            .map(|triangle| triangle.vertices)
+            .collect();
         Features {
             triangles: self.triangles.len(),
             area_lights,
@@ -154,7 +169,7 @@ impl Builder {
             smooth_surfaces: count(&|triangle, _| {
                 self.attributes.get(triangle.attributes as usize).is_some_and(|it| it.normals.is_some())
             }),
-            closed: encloses(&self.triangles, description.camera.eye),
+            closed: encloses(&opaque, description.camera.eye),
             hierarchy: accel.stats().nodes > 0,
         }
     }

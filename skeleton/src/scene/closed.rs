@@ -2,17 +2,19 @@
 
 use std::collections::HashMap;
 
-use super::Triangle;
+use glam::DVec3;
+
 use crate::math::Vec3;
 
 /// True if `eye` lies inside a surface without a hole.
 ///
 /// Triangles that share an edge belong together. A set of them has no hole if each of its edges belongs to an even
-/// number of its triangles; whether it encloses the eye is told by its winding number, the sum of the solid angles
-/// of its triangles (van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30(2), 1983) over 4π. Surfaces that only
-/// touch without sharing vertices count as open, so that "closed" can be relied on and "open" cannot.
-pub(super) fn encloses(triangles: &[Triangle], eye: Vec3) -> bool {
-    let (triangle_vertices, edges) = edges(triangles);
+/// number of its triangles; such a set encloses the eye if a line from the eye to infinity crosses it an odd number
+/// of times. That needs no triangle to know its front from its back, and triangles that stand there twice cancel.
+/// Surfaces that only touch without sharing vertices count as open, so that "closed" can be relied on and "open"
+/// cannot.
+pub(super) fn encloses(triangles: &[[Vec3; 3]], eye: Vec3) -> bool {
+    let edges = edges(triangles);
     let mut sets = DisjointSets::new(triangles.len());
     for owners in edges.values() {
         for pair in owners.windows(2) {
@@ -23,43 +25,55 @@ pub(super) fn encloses(triangles: &[Triangle], eye: Vec3) -> bool {
     for owners in edges.values().filter(|owners| owners.len() % 2 == 1) {
         open[sets.find(owners[0]) as usize] = true;
     }
-    let mut solid_angles = vec![0.0; triangles.len()];
-    for (index, vertices) in triangle_vertices.iter().enumerate() {
+    // In each set, for each direction, whether it is crossed an odd number of times.
+    let mut odd = vec![[false; DIRECTIONS.len()]; triangles.len()];
+    for (index, vertices) in triangles.iter().enumerate() {
         let set = sets.find(index as u32) as usize;
         if !open[set] {
-            solid_angles[set] += solid_angle(vertices.map(|vertex| (vertex - eye).as_dvec3()));
+            let corners = vertices.map(|vertex| vertex.as_dvec3() - eye.as_dvec3());
+            for (odd, direction) in odd[set].iter_mut().zip(DIRECTIONS) {
+                *odd ^= crosses(corners, direction);
+            }
         }
     }
-    solid_angles.iter().any(|angle: &f64| angle.abs() > 2.0 * std::f64::consts::PI)
+    odd.contains(&[true; DIRECTIONS.len()])
+}
+
+/// Directions with no simple ratios, so that no diagonal of a box lies along them. One would do, the others guard
+/// against chance. Their lengths do not matter.
+const DIRECTIONS: [DVec3; 3] = [
+    DVec3::new(0.567_143_290_4, 0.739_085_133_2, 0.261_497_212_8),
+    DVec3::new(-0.618_033_988_7, 0.141_592_653_5, 0.773_239_104_1),
+    DVec3::new(0.271_828_182_8, -0.577_215_664_9, -0.763_932_022_5),
+];
+
+/// True if the half-line from the origin crosses the triangle.
+fn crosses([a, b, c]: [DVec3; 3], direction: DVec3) -> bool {
+    // On which side of each edge the line passes. Both triangles at an edge work out the same bits, up to the sign,
+    // so that none slips between them.
+    let sides = [(a, b), (b, c), (c, a)].map(|(from, to)| direction.dot(from.cross(to)));
+    let inside = sides.iter().all(|side| *side > 0.0) || sides.iter().all(|side| *side < 0.0);
+    inside && (a.dot(b.cross(c)) > 0.0) == (sides[0] > 0.0)
 }
 
 type Edge = [[u32; 3]; 2];
 
-/// The corners of each triangle, and for each edge, by the bits of its end points, the triangles it belongs to.
-fn edges(triangles: &[Triangle]) -> (Vec<[Vec3; 3]>, HashMap<Edge, Vec<u32>>) {
+/// For each edge, by the bits of its end points, the triangles it belongs to.
+fn edges(triangles: &[[Vec3; 3]]) -> HashMap<Edge, Vec<u32>> {
     let mut edges: HashMap<Edge, Vec<u32>> = HashMap::new();
-    let mut vertices = Vec::with_capacity(triangles.len());
-    for (index, triangle) in triangles.iter().enumerate() {
+    for (index, vertices) in triangles.iter().enumerate() {
         // Adding zero makes -0 into 0.
-        let key = triangle.vertices.map(|vertex| (vertex + Vec3::ZERO).to_array().map(f32::to_bits));
+        let key = vertices.map(|vertex| (vertex + Vec3::ZERO).to_array().map(f32::to_bits));
         for (a, b) in [(0, 1), (1, 2), (2, 0)] {
             let mut edge = [key[a], key[b]];
             edge.sort_unstable();
             edges.entry(edge).or_default().push(index as u32);
         }
-        vertices.push(triangle.vertices);
     }
-    (vertices, edges)
+    edges
 }
 
-/// The solid angle of a triangle seen from the origin, positive if it is seen from its back.
-fn solid_angle([a, b, c]: [glam::DVec3; 3]) -> f64 {
-    let (la, lb, lc) = (a.length(), b.length(), c.length());
-    let denominator = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-    2.0 * a.dot(b.cross(c)).atan2(denominator)
-}
-
-/// Sets of triangles that grow together (union by path halving).
+/// Sets of triangles that grow together (union–find with path halving).
 struct DisjointSets {
     parent: Vec<u32>,
 }
@@ -81,5 +95,66 @@ impl DisjointSets {
     fn union(&mut self, a: u32, b: u32) {
         let (a, b) = (self.find(a), self.find(b));
         self.parent[a as usize] = b;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The cube [-1, 1]³, triangle by triangle.
+    fn cube() -> Vec<[Vec3; 3]> {
+        let corner =
+            |bits: usize| Vec3::from([0, 1, 2].map(|axis| if bits >> axis & 1 == 1 { 1.0 } else { -1.0 }));
+        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        quads
+            .iter()
+            .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
+            .map(|corners| corners.map(corner))
+            .collect()
+    }
+
+    const INSIDE: Vec3 = Vec3::new(0.1, -0.2, 0.3);
+
+    #[test]
+    fn a_cube_encloses_what_is_in_it_and_nothing_else() {
+        assert!(encloses(&cube(), INSIDE));
+        assert!(encloses(&cube(), Vec3::splat(0.999)));
+        for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
+            assert!(!encloses(&cube(), 1.001 * axis) && !encloses(&cube(), -1.001 * axis));
+        }
+    }
+
+    #[test]
+    fn one_triangle_less_is_a_hole() {
+        for left_out in 0..12 {
+            let mut cube = cube();
+            cube.remove(left_out);
+            assert!(!encloses(&cube, INSIDE));
+        }
+    }
+
+    #[test]
+    fn the_order_of_vertices_does_not_matter() {
+        for turned in 0..1 << 12 {
+            let mut cube = cube();
+            for (index, triangle) in cube.iter_mut().enumerate() {
+                if turned >> index & 1 == 1 {
+                    triangle.swap(0, 1);
+                }
+            }
+            assert!(encloses(&cube, INSIDE));
+            // Seen from just outside a face, solid angles with signs would add up to a whole sphere.
+            assert!(!encloses(&cube, Vec3::new(0.0, 0.0, 1.01)));
+        }
+    }
+
+    #[test]
+    fn a_sheet_that_stands_there_twice_encloses_nothing() {
+        let sheet = [[Vec3::ZERO, Vec3::X, Vec3::Y], [Vec3::X, Vec3::ONE.with_z(0.0), Vec3::Y]];
+        let twice = [sheet, sheet].concat();
+        assert!(
+            !encloses(&twice, Vec3::new(0.5, 0.5, 0.01)) && !encloses(&twice, Vec3::new(0.5, 0.5, -0.01))
+        );
     }
 }

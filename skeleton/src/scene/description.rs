@@ -108,6 +108,19 @@ pub enum Specular {
     },
 }
 
+impl Specular {
+    /// True if it neither reflects nor lets through any light.
+    pub(crate) fn is_black(&self) -> bool {
+        match self {
+            Self::None => true,
+            Self::Phong { reflectance, .. } | Self::Mirror { reflectance } => reflectance.is_black(),
+            Self::Glass { reflectance, transmittance, .. } => {
+                reflectance.is_black() && transmittance.is_black()
+            }
+        }
+    }
+}
+
 /// An 8-bit image wrapped over a surface, repeating in both directions.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Texture {

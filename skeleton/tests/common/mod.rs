@@ -1,0 +1,7 @@
+//! What the tests of the renderer share. Each test program uses a part of it.
+#![allow(dead_code)]
+
+pub(crate) mod formulas;
+pub(crate) mod quadrature;
+pub(crate) mod scenes;
+pub(crate) mod statistics;

@@ -1,0 +1,241 @@
+//! What lights promise: power, densities, cosines, where they shine and where not. No test here is statistical, but
+//! for sampled points that are checked one by one.
+
+mod common;
+
+use std::f64::consts::PI;
+
+use arty::light::Light;
+use arty::math::{Rgb, Vec3, direction};
+use arty::ray::Ray;
+use arty::sampler::Sampler;
+use arty::scene::{LightDescription, Material, Scene};
+use common::quadrature::{Polar, over_ring, spiral};
+use common::scenes::{add, black, diffuse, empty, quad, tilted};
+
+fn scene_of(light: LightDescription) -> Scene {
+    let mut scene = empty();
+    scene.lights.push(light);
+    Scene::new(&scene)
+}
+
+const AXIS: Vec3 = Vec3::new(0.3, -0.5, 2.0);
+const POSITION: Vec3 = Vec3::new(4.0, 5.0, -6.0);
+
+const POWER: Rgb = Rgb::new(3.0, 7.0, 11.0);
+
+const TRIANGLE: [Vec3; 3] = [Vec3::new(1.0, 0.0, 0.0), Vec3::new(3.0, 0.5, 0.0), Vec3::new(1.5, 2.0, 1.0)];
+
+fn triangle() -> Scene {
+    scene_of(LightDescription::Triangle { vertices: TRIANGLE, radiance: Rgb::new(1.0, 2.0, 3.0) })
+}
+
+/// Unit normal of the front, and area.
+fn normal_and_area() -> (Vec3, f32) {
+    let [a, b, c] = TRIANGLE;
+    let cross = (b - a).cross(c - a);
+    (cross.normalize(), 0.5 * cross.length())
+}
+
+/// Intensity towards a far point in the direction `w`: luminance, in W/sr.
+fn intensity(light: &Light, w: Vec3) -> f64 {
+    let mut sampler = Sampler::new(1, (0, 0), 0);
+    let center = if light.has_area() { TRIANGLE[0] } else { POSITION };
+    light
+        .sample_direct(center + 1e4 * w, &mut sampler)
+        .map_or(0.0, |sample| f64::from(sample.intensity.luminance() * sample.cos / sample.pdf_area))
+}
+
+#[test]
+fn a_point_light_spreads_its_power_evenly() {
+    let scene = scene_of(LightDescription::Point { position: POSITION, power: POWER });
+    let light = &scene.lights()[0];
+    assert!((light.power() / POWER.luminance() - 1.0).abs() < 1e-6 && !light.has_area());
+    for (w, _) in spiral(100) {
+        assert!((intensity(light, w) * 4.0 * PI / f64::from(POWER.luminance()) - 1.0).abs() < 1e-6);
+    }
+    assert!(
+        light.sample_direct(POSITION, &mut Sampler::new(0, (0, 0), 0)).is_none(),
+        "no distance, no direction"
+    );
+}
+
+#[test]
+fn a_spot_light_sends_all_its_power_into_its_cone() {
+    let power = f64::from(POWER.luminance());
+    let polar = Polar::around(AXIS.as_dvec3());
+    for (inner, outer) in [
+        (10.0, 20.0),
+        (0.0, 90.0),
+        (30.0, 30.0),
+        (90.0, 150.0),
+        (0.0, 180.0),
+        (180.0, 180.0),
+        (1.0, 2.0),
+        (0.05, 0.1),
+    ] {
+        // In the origin, where directions to points are exact.
+        let (position, direction) = (Vec3::ZERO, AXIS);
+        let scene = scene_of(LightDescription::Spot { position, direction, inner, outer, power: POWER });
+        let light = &scene.lights()[0];
+        assert!(
+            (f64::from(light.power()) / power - 1.0).abs() < 1e-5,
+            "{inner}°–{outer}°: {}",
+            light.power()
+        );
+        let towards = |w: Vec3| {
+            let sample = light.sample_direct(w, &mut Sampler::new(1, (0, 0), 0));
+            sample.map_or(0.0, |sample| f64::from(sample.intensity.luminance()))
+        };
+        let edge = |degrees: f32| 2.0 * (0.5 * f64::from(degrees).to_radians()).sin().powi(2);
+        let total: f64 = [(0.0, edge(inner)), (edge(inner), edge(outer)), (edge(outer), 2.0)]
+            .into_iter()
+            .map(|ring| over_ring(&polar, ring, (0.0, 1.0), 64, &towards))
+            .sum();
+        assert!((total / power - 1.0).abs() < 1e-3, "{inner}°–{outer}°: {total}, expected {power}");
+    }
+}
+
+#[test]
+fn a_spot_light_falls_off_smoothly_between_its_angles() {
+    let (position, direction) = (POSITION, AXIS);
+    let scene =
+        scene_of(LightDescription::Spot { position, direction, inner: 20.0, outer: 40.0, power: POWER });
+    let polar = Polar::around(AXIS.as_dvec3());
+    let at =
+        |degrees: f64| intensity(&scene.lights()[0], polar.direction(1.0 - degrees.to_radians().cos(), 1.0));
+    let full = at(0.0);
+    assert!((at(19.9) / full - 1.0).abs() < 1e-6 && at(40.1) == 0.0 && at(170.0) == 0.0);
+    for degrees in [22.0f64, 27.0, 31.0, 38.0] {
+        let cos = |degrees: f64| degrees.to_radians().cos();
+        let t = (cos(degrees) - cos(40.0)) / (cos(20.0) - cos(40.0));
+        let expected = t * t * (3.0 - 2.0 * t);
+        assert!(
+            (at(degrees) / full - expected).abs() < 1e-4,
+            "{degrees}°: {}, {expected}",
+            at(degrees) / full
+        );
+    }
+}
+
+#[test]
+fn the_power_of_a_triangle_is_the_integral_of_its_intensity() {
+    let scene = triangle();
+    let (light, (normal, area)) = (&scene.lights()[0], normal_and_area());
+    let exact = PI * f64::from(area) * f64::from(Rgb::new(1.0, 2.0, 3.0).luminance());
+    assert!((f64::from(light.power()) / exact - 1.0).abs() < 1e-6);
+    let polar = Polar::around(normal.as_dvec3());
+    let total = over_ring(&polar, (0.0, 2.0), (0.0, 1.0), 48, &|w| intensity(light, w));
+    assert!((total / exact - 1.0).abs() < 2e-3, "{total}, expected {exact}");
+}
+
+#[test]
+fn points_on_a_triangle_come_with_their_density_and_cosine() {
+    let scene = triangle();
+    let (light, (normal, area)) = (&scene.lights()[0], normal_and_area());
+    assert!(light.has_area() && light.index() == 0);
+    let mut sampler = Sampler::new(2, (0, 0), 0);
+    for (w, _) in spiral(3000) {
+        let from = TRIANGLE[0] + 5.0 * w;
+        let sample = light.sample_direct(from, &mut sampler);
+        // The triangle is flat: it is seen either from its front or from its back as a whole.
+        let side = normal.dot(from - TRIANGLE[0]);
+        if side.abs() < 1e-4 {
+            continue;
+        }
+        assert_eq!(sample.is_some(), side > 0.0, "{from}");
+        let Some(sample) = sample else { continue };
+        let [a, b, c] = TRIANGLE;
+        assert!(normal.dot(sample.point - a).abs() < 1e-6, "in the plane");
+        for (p, q) in [(a, b), (b, c), (c, a)] {
+            assert!((q - p).cross(sample.point - p).dot(normal) > -1e-6, "within its edges");
+        }
+        assert!((sample.pdf_area * area - 1.0).abs() < 1e-6);
+        let cos = normal.dot(direction(sample.point, from).0);
+        assert!((sample.cos - cos).abs() < 1e-6 && sample.cos > 0.0 && sample.cos <= 1.0);
+        assert_eq!(sample.intensity, Rgb::new(1.0, 2.0, 3.0));
+    }
+}
+
+#[test]
+fn hitting_a_point_tells_the_same_as_drawing_it() {
+    let scene = triangle();
+    let light = &scene.lights()[0];
+    let mut sampler = Sampler::new(3, (0, 0), 0);
+    let mut seen = 0;
+    for (w, _) in spiral(2000) {
+        let from = TRIANGLE[1] + 3.0 * w;
+        let Some(sample) = light.sample_direct(from, &mut sampler) else { continue };
+        // Along the surface and at its rim a rounding decides whether a ray hits.
+        if sample.cos < 0.01 {
+            continue;
+        }
+        let Some(hit) = scene.intersect(&Ray::new(from, direction(from, sample.point).0)) else { continue };
+        let there = hit.light().expect("it is seen from its front");
+        let emission = there.emission(&hit);
+        assert_eq!((there.index(), emission.radiance), (light.index(), sample.intensity));
+        assert_eq!(emission.pdf_area, sample.pdf_area);
+        assert!((emission.cos - sample.cos).abs() < 1e-5 && (hit.point - sample.point).length() < 1e-4);
+        seen += 1;
+    }
+    assert!(seen > 900, "{seen}");
+}
+
+#[test]
+fn lights_shine_from_their_front_only() {
+    let scene = triangle();
+    let (normal, _) = normal_and_area();
+    let middle = (TRIANGLE[0] + TRIANGLE[1] + TRIANGLE[2]) / 3.0;
+    let front = scene.intersect(&Ray::new(middle + normal, -normal)).expect("it is hit from the front");
+    let back = scene.intersect(&Ray::new(middle - normal, normal)).expect("it is hit from the back");
+    assert!(front.light().is_some() && back.light().is_none());
+    // Triangle lights reflect nothing, from either side.
+    let mut sampler = Sampler::new(4, (0, 0), 0);
+    for hit in [front, back] {
+        assert!(hit.bsdf().eval(hit.normal).is_black() && hit.bsdf().sample(&mut sampler).is_none());
+    }
+}
+
+#[test]
+fn a_light_of_a_mesh_reflects_too_and_comes_after_the_listed_ones() {
+    let mut scene = empty();
+    scene.lights.push(LightDescription::Point { position: Vec3::X, power: Rgb::WHITE });
+    scene.lights.push(LightDescription::Triangle { vertices: TRIANGLE, radiance: Rgb::WHITE });
+    add(
+        &mut scene,
+        &quad(Vec3::new(-1.0, -1.0, -3.0), 2.0 * Vec3::X, 2.0 * Vec3::Y),
+        Material { emission: Rgb::gray(4.0), ..diffuse(0.5) },
+    );
+    let scene = Scene::new(&scene);
+    let kinds: Vec<bool> = scene.lights().iter().map(Light::has_area).collect();
+    assert_eq!(kinds, [false, true, true, true]);
+    assert!(scene.lights().iter().enumerate().all(|(index, light)| light.index() == index));
+    let hit =
+        scene.intersect(&Ray::new(Vec3::new(0.3, 0.1, 0.0), Vec3::NEG_Z)).expect("the quad is in the way");
+    let light = hit.light().expect("it emits");
+    assert!(light.index() >= 2 && light.emission(&hit).radiance == Rgb::gray(4.0));
+    assert!((hit.bsdf().eval(Vec3::Z).g * std::f32::consts::PI - 0.5).abs() < 1e-6);
+}
+
+#[test]
+fn lights_that_f32_cannot_measure_are_left_out_with_a_warning() {
+    let mut scene = empty();
+    for size in [0.0, 1e-25, 1.0, 1e25] {
+        let vertices = [Vec3::ZERO, size * Vec3::X, size * Vec3::Y];
+        scene.lights.push(LightDescription::Triangle { vertices, radiance: Rgb::WHITE });
+        add(
+            &mut scene,
+            &[vertices.map(|vertex| vertex + Vec3::Z)],
+            Material { emission: Rgb::WHITE, ..black() },
+        );
+    }
+    let scene = Scene::new(&scene);
+    assert_eq!(scene.lights().len(), 2);
+    assert_eq!(scene.warnings().len(), 1, "{:?}", scene.warnings());
+    let mut sampler = Sampler::new(5, (0, 0), 0);
+    for light in scene.lights() {
+        let sample =
+            light.sample_direct(tilted(20.0, 0.0) * 3.0, &mut sampler).expect("it is seen from the front");
+        assert!(sample.pdf_area == 2.0);
+    }
+}
