@@ -1,5 +1,6 @@
 //! The loop that answers jobs.
 
+use std::any::Any;
 use std::io::{BufReader, BufWriter, Read, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
@@ -63,7 +64,7 @@ static FIRST_PANIC: Mutex<Option<String>> = Mutex::new(None);
 
 fn keep_panic_messages() {
     std::panic::set_hook(Box::new(|info| {
-        let message = info.payload_as_str().unwrap_or("a value that is not text");
+        let message = message_of(info.payload());
         let place = info
             .location()
             .map_or(String::new(), |location| format!(" ({}:{})", location.file(), location.line()));
@@ -71,6 +72,13 @@ fn keep_panic_messages() {
             first.get_or_insert_with(|| format!("{message}{place}"));
         }
     }));
+}
+
+/// `panic!("…")` gives a `&str`, with values to fill in a `String`.
+fn message_of(payload: &dyn Any) -> &str {
+    let text = payload.downcast_ref::<&str>().copied();
+    text.or_else(|| payload.downcast_ref::<String>().map(String::as_str))
+        .unwrap_or("a value that is not text")
 }
 
 fn first_panic() -> String {
