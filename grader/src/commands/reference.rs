@@ -16,7 +16,7 @@ use crate::workspace::Workspace;
 const PICTURE_SIZE: (u32, u32) = (320, 256);
 
 /// Samples of each of their pixels.
-const PICTURE_SAMPLES: u64 = 1024;
+const PICTURE_SAMPLES: u64 = 256;
 
 /// Render references with the solution.
 #[derive(clap::Args)]
@@ -32,6 +32,9 @@ pub(super) struct Arguments {
     /// Leave out the pictures to look at
     #[arg(long)]
     no_pictures: bool,
+    /// Render only the pictures to look at
+    #[arg(long, conflicts_with = "no_pictures")]
+    only_pictures: bool,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
@@ -52,8 +55,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     for (scene, wanted) in wanted {
         eprintln!("{scene} …");
         let description = load(&workspace.scene_file(scene))?.description;
-        let made = reference::make(&program, &description, &wanted, Effort::default(), arguments.seed)?;
-        reference::save(&made, &workspace.reference_file(scene))?;
+        if !arguments.only_pictures {
+            let made = reference::make(&program, &description, &wanted, Effort::default(), arguments.seed)?;
+            reference::save(&made, &workspace.reference_file(scene))?;
+        }
         if !arguments.no_pictures {
             let max_bounces = wanted.keys().next_back().copied().unwrap_or(1);
             let settings = Settings { technique: Technique::Mis, max_bounces };
@@ -65,7 +70,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
                 PICTURE_SAMPLES,
                 arguments.seed,
             )?;
-            let file = ExrFile::new(&picture).with_metadata("arty:scene_hash", &made.scene_hash);
+            let file = ExrFile::new(&picture).with_metadata("arty:scene_hash", description.hash());
             file.write(&workspace.picture_file(scene), Precision::Half)?;
         }
     }

@@ -1,8 +1,8 @@
 //! Which triangle does a ray hit first, and does anything lie between two points?
 //!
-//! Triangles are sorted into packets of eight and packets into a tree of boxes ([`tree`]), which rays descend
-//! ([`traverse`]) until they meet packets ([`packet`]). Rays do not leak: not through edges, not through
-//! vertices, nor because they start or end next to a surface ([`exact`]).
+//! Triangles are sorted into packets of eight and packets into a tree of boxes (`tree`), which rays descend
+//! (`traverse`) until they meet packets (`packet`). Rays do not leak: not through edges, not through
+//! vertices, nor because they start or end next to a surface (`exact`).
 
 mod binary;
 mod clean;

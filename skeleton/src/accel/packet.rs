@@ -7,7 +7,7 @@
 //! inside, no ray passes between the two.
 //!
 //! The distance decides little: whether a triangle lies before or behind a point. Where rounding could change
-//! the answer, [`exact`](super::exact) gives it.
+//! the answer, [`exact`] gives it.
 
 use glam::Vec3;
 

@@ -62,7 +62,7 @@ pub(super) struct Args {
     pub(super) time: Option<Duration>,
 
     /// Where to save the picture: a .png to look at, an .exr to compute with; may be given several times
-    /// [default: <scene>.png, here]
+    /// [default: `<scene>.png`, here]
     ///
     /// An earlier file of that name is replaced. An OpenEXR file holds the mean and (from two samples per pixel
     /// on) the variance of the mean of each pixel, and how the picture was made.
