@@ -123,3 +123,16 @@ fn triangles_without_area_are_left_out_with_a_warning() {
     assert_eq!(scene.features().triangles, 2);
     assert!(scene.warnings()[0].contains('3'), "{:?}", scene.warnings());
 }
+
+#[test]
+fn a_scene_beyond_the_measured_sizes_and_offsets_says_so() {
+    let warnings = |size: f32, offset: f32| {
+        let corner = Vec3::splat(offset);
+        Scene::new(&with(&quad(corner, size * Vec3::X, size * Vec3::Y), diffuse(0.5))).warnings().to_vec()
+    };
+    assert!(warnings(1.0, 0.0).is_empty());
+    assert!(warnings(1.0, 500.0).is_empty());
+    assert!(warnings(1.0, 2000.0)[0].contains("from the origin"));
+    assert!(warnings(1e-5, 0.0)[0].contains("units large"));
+    assert!(warnings(1e6, 0.0)[0].contains("units large"));
+}

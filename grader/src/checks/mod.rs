@@ -191,7 +191,7 @@ fn describe(result: &mut CheckResult, judgement: &Judgement, spec: &CheckSpec) {
             Verdict::Fail,
             Reason::Bias,
             format!(
-                "{} ({}); a correct program differs as much less than once in {:.0} times",
+                "{} ({}); by chance that happens less than once in {:.0} times",
                 if judgement.is_pattern { describe_pattern(effect) } else { describe_effect(effect) },
                 judgement.region,
                 1.0 / CONFIRMATION_LEVEL

@@ -37,7 +37,7 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let path = arguments.submission.clone().unwrap_or_else(|| workspace.student_file());
-    let submission = Submission::read(&path)?;
+    let submission = Submission::read(&relative(path))?;
     let threads = arguments.jobs.unwrap_or_else(rayon::current_num_threads).max(1);
     let options = Options {
         assignment: arguments.assignment.clone(),
@@ -45,10 +45,21 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         threads,
         only: arguments.only.clone(),
     };
+    if !workspace.framework_target().exists() {
+        eprintln!(
+            "building the framework that hand-ins are linked against; this is done once, and takes a minute …"
+        );
+    }
     let report = grade(&workspace, &submission, &options, print_check)?;
     print_summary(&report);
     let file = report.save(&arguments.out)?;
     eprintln!("report: {}", file.display());
     let too_few = arguments.fail_under.is_some_and(|least| report.points.earned < least);
     Ok(ExitCode::from(u8::from(too_few)))
+}
+
+/// The path as a person in the current folder would write it.
+fn relative(path: PathBuf) -> PathBuf {
+    let current = std::env::current_dir().ok();
+    current.and_then(|folder| path.strip_prefix(folder).map(PathBuf::from).ok()).unwrap_or(path)
 }

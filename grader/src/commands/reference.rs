@@ -1,5 +1,6 @@
 //! `grader reference`.
 
+use std::path::Path;
 use std::process::ExitCode;
 
 use arty::image::exr::{ExrFile, Precision};
@@ -52,11 +53,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         .retain(|scene, _| arguments.scenes.is_empty() || arguments.scenes.iter().any(|name| name == scene));
 
     let program = solution(&workspace)?;
-    for (scene, wanted) in wanted {
-        eprintln!("{scene} …");
+    let count = wanted.len();
+    for (index, (scene, wanted)) in wanted.into_iter().enumerate() {
+        eprintln!("{scene} ({} of {count}) …", index + 1);
         let description = load(&workspace.scene_file(scene))?.description;
         if !arguments.only_pictures {
             let made = reference::make(&program, &description, &wanted, Effort::default(), arguments.seed)?;
+            make_folder_of(&workspace.reference_file(scene))?;
             reference::save(&made, &workspace.reference_file(scene))?;
         }
         if !arguments.no_pictures {
@@ -71,8 +74,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
                 arguments.seed,
             )?;
             let file = ExrFile::new(&picture).with_metadata("arty:scene_hash", description.hash());
-            file.write(&workspace.picture_file(scene), Precision::Half)?;
+            let path = workspace.picture_file(scene);
+            make_folder_of(&path)?;
+            file.write(&path, Precision::Half)?;
         }
     }
     Ok(ExitCode::SUCCESS)
+}
+
+fn make_folder_of(path: &Path) -> Result<()> {
+    path.parent()
+        .map_or(Ok(()), |folder| std::fs::create_dir_all(folder).map_err(|error| Error::file(folder, error)))
 }

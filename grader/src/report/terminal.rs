@@ -1,9 +1,9 @@
 //! The report on a terminal.
 
 use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
-use comfy_table::{Cell, CellAlignment, Color, Table};
+use comfy_table::{Cell, CellAlignment, Color, ContentArrangement, Table};
 
-use super::{CheckResult, Report, Verdict};
+use super::{CheckResult, Report, TaskResult, Verdict};
 
 /// One line for a check, as soon as it has ended.
 pub fn print_check(check: &CheckResult) {
@@ -16,7 +16,7 @@ pub fn print_summary(report: &Report) {
         println!("The hand-in does not compile:\n\n{}", failure.messages);
     }
     let mut table = Table::new();
-    table.load_style(UTF8_HORIZONTAL_ONLY).set_header([
+    table.load_style(UTF8_HORIZONTAL_ONLY).set_content_arrangement(ContentArrangement::Dynamic).set_header([
         "task",
         "",
         "points",
@@ -49,15 +49,30 @@ pub fn print_summary(report: &Report) {
         "{} of {} automatic points ({} more are marked by a person), {:.1} s",
         report.points.earned, report.points.automatic_max, report.points.manual_max, report.cost.total
     );
-    for check in report.checks.iter().filter(|check| check.verdict != Verdict::Pass) {
-        println!(
-            "\n{}: {}\n  {}\n  again: {}",
-            word(check.verdict),
-            check.id,
-            check.explanation,
-            check.repeat
-        );
+    for task in &report.tasks {
+        print_failures(task, report);
     }
+}
+
+/// How many failed checks of a task are explained: with the first ones mended, the others often are.
+const EXPLAINED: usize = 3;
+
+/// What is wrong in a task, and the command that shows it again.
+fn print_failures(task: &TaskResult, report: &Report) {
+    let failed: Vec<&CheckResult> = report
+        .checks
+        .iter()
+        .filter(|check| check.task == task.id && check.verdict != Verdict::Pass)
+        .collect();
+    let Some(first) = failed.first() else { return };
+    println!("\n{} {}", task.id, task.title);
+    for check in failed.iter().take(EXPLAINED) {
+        println!("  {}: {}\n    {}", word(check.verdict), check.id, check.explanation);
+    }
+    if failed.len() > EXPLAINED {
+        println!("  … and {} more: see report.json", failed.len() - EXPLAINED);
+    }
+    println!("  again: {}", first.repeat);
 }
 
 fn word(verdict: Verdict) -> &'static str {

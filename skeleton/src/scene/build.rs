@@ -117,6 +117,7 @@ impl Builder {
         if self.degenerate > 0 {
             warnings.push(format!("{} triangles without an area were left out", self.degenerate));
         }
+        warnings.extend(precision_warning(&corners));
         let duplicates = accel.stats().duplicates;
         if duplicates > 0 {
             warnings.push(format!(
@@ -179,4 +180,23 @@ impl Builder {
 fn front_normal([a, b, c]: [Vec3; 3]) -> Option<Vec3> {
     let (a, b, c) = (a.as_dvec3(), b.as_dvec3(), c.as_dvec3());
     (b - a).cross(c - a).try_normalize().map(|normal| normal.as_vec3())
+}
+
+/// Says so if the scene is beyond the sizes and offsets for which the tests of `accel` show that rays neither leak
+/// nor hit the surface that they leave.
+fn precision_warning(corners: &[[Vec3; 3]]) -> Option<String> {
+    let vertices = corners.as_flattened();
+    let least = vertices.iter().copied().reduce(Vec3::min)?.as_dvec3();
+    let greatest = vertices.iter().copied().reduce(Vec3::max)?.as_dvec3();
+    let size = (greatest - least).length();
+    let offset = (0.5 * (greatest + least)).length();
+    if !(1e-4..=1e5).contains(&size) {
+        return Some(format!("the scene is {size:.1e} units large; rays are reliable from 1e-4 to 1e5"));
+    }
+    (offset > 1e3 * size).then(|| {
+        format!(
+            "the scene lies {:.1e} times its size from the origin; rays are reliable up to 1e3",
+            offset / size
+        )
+    })
 }
