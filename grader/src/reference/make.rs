@@ -72,6 +72,9 @@ pub fn make(
     Ok(Reference { scene_hash: description.hash(), by_bounces, provenance })
 }
 
+/// Samples of each pixel that one batch of a picture takes at most.
+const PICTURE_BATCH: u64 = 16;
+
 /// Renders a larger picture of a scene, to be looked at.
 pub fn picture(
     program: &HandInProgram,
@@ -81,9 +84,13 @@ pub fn picture(
     samples: u64,
     seed: u64,
 ) -> Result<Image> {
+    // In batches, so that no job takes long.
+    let per_batch = (1..=PICTURE_BATCH).rev().find(|&size| samples.is_multiple_of(size)).unwrap_or(1);
+    let batches = u32::try_from(samples / per_batch).unwrap_or(u32::MAX);
     let mut renderer = Renderer::start(program, description)?;
-    let batches = renderer.render((width, height), settings, 1, samples, seed)?;
-    let pixels = batches[0].iter().map(|&pixel| Rgb::from(pixel)).collect();
+    let (mean, _) =
+        mean_and_variance(&renderer.render((width, height), settings, batches, per_batch, seed)?);
+    let pixels = mean.iter().map(|pixel| Rgb::from(pixel.map(|channel| channel as f32))).collect();
     Ok(Image::from_pixels(width as usize, height as usize, pixels))
 }
 
