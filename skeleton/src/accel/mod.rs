@@ -30,8 +30,6 @@ use tree::Tree;
 #[derive(Clone, Debug)]
 pub struct Accel {
     tree: Tree,
-    /// Least and greatest coordinates.
-    bounds: [Vec3; 2],
     /// A power of two by which everything is scaled so that products of three lengths stay within f32.
     scale: f32,
     /// Whether to use the code that is compiled for AVX2.
@@ -79,10 +77,6 @@ impl Accel {
         let scale =
             scale_for(corners.iter().fold(0.0, |most: f32, corner| most.max(corner.abs().max_element())));
         corners.iter_mut().for_each(|corner| *corner *= scale);
-        let bounds = [
-            corners.iter().copied().reduce(Vec3::min).unwrap_or(Vec3::ZERO),
-            corners.iter().copied().reduce(Vec3::max).unwrap_or(Vec3::ZERO),
-        ];
         let mut tree =
             Tree::collapse(&BinaryTree::cluster(&cleaned.triangles), &cleaned.triangles, &cleaned.primitives);
         if tree.waiting > traverse::STACK_SIZE {
@@ -101,7 +95,6 @@ impl Accel {
             packets: tree.packets.len(),
         };
         Self {
-            bounds,
             scale,
             #[cfg(target_arch = "x86_64")]
             avx2: std::arch::is_x86_feature_detected!("avx2"),
@@ -119,14 +112,14 @@ impl Accel {
     ///
     /// `direction` may have any length that is far from the ends of what f32 can represent. A ray that is not
     /// finite or has no direction hits nothing.
-    #[inline(never)]
+    #[inline]
     pub fn intersect(&self, origin: Vec3, direction: Vec3, t_max: f32) -> Option<TriangleHit> {
         #[cfg(target_arch = "x86_64")]
         if self.avx2 {
             // SAFETY: `build` has checked that the machine has AVX2.
             return unsafe { self.intersect_avx2(origin, direction, t_max) };
         }
-        self.intersect_with::<Portable>(origin, direction, t_max)
+        self.intersect_portable(origin, direction, t_max)
     }
 
     /// True if anything lies strictly between `origin` and `target`.
@@ -135,14 +128,14 @@ impl Accel {
     /// the other passes through it. `target` may be rounded: a triangle that it lies on but for the rounding of
     /// coordinates to f32, such as that of a light, is not between. For `origin` there is no such allowance; a
     /// point on a surface must be moved off it first ([`offset_origin`]).
-    #[inline(never)]
+    #[inline]
     pub fn occluded(&self, origin: Vec3, target: Vec3) -> bool {
         #[cfg(target_arch = "x86_64")]
         if self.avx2 {
             // SAFETY: `build` has checked that the machine has AVX2.
             return unsafe { self.occluded_avx2(origin, target) };
         }
-        self.occluded_with::<Portable>(origin, target)
+        self.occluded_portable(origin, target)
     }
 
     #[cfg(target_arch = "x86_64")]
@@ -157,9 +150,19 @@ impl Accel {
         self.occluded_with::<lanes::Avx>(origin, target)
     }
 
+    #[inline(never)]
+    fn intersect_portable(&self, origin: Vec3, direction: Vec3, t_max: f32) -> Option<TriangleHit> {
+        self.intersect_with::<Portable>(origin, direction, t_max)
+    }
+
+    #[inline(never)]
+    fn occluded_portable(&self, origin: Vec3, target: Vec3) -> bool {
+        self.occluded_with::<Portable>(origin, target)
+    }
+
     #[inline(always)]
     fn intersect_with<V: Lanes>(&self, origin: Vec3, direction: Vec3, t_max: f32) -> Option<TriangleHit> {
-        let ray = PreparedRay::new(origin * self.scale, direction * self.scale, self.bounds)?;
+        let ray = PreparedRay::new(origin * self.scale, direction * self.scale)?;
         let mut nearest = Nearest { t: t_max, primitive: 0, weights: [0.0; 2], weight_sum: 0.0 };
         self.tree.intersect::<V>(&ray, &mut nearest);
         let Nearest { t, primitive, weights, weight_sum } = nearest;
@@ -175,7 +178,7 @@ impl Accel {
     fn occluded_with<V: Lanes>(&self, origin: Vec3, target: Vec3) -> bool {
         let (origin, target) = (origin * self.scale, target * self.scale);
         // One rounding: f64 would give the same.
-        let Some(ray) = PreparedRay::new(origin, target - origin, self.bounds) else { return false };
+        let Some(ray) = PreparedRay::new(origin, target - origin) else { return false };
         let reach = origin.abs().max_element() + target.abs().max_element();
         self.tree.occluded::<V>(&ray, target, reach)
     }

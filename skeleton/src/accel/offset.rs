@@ -1,8 +1,9 @@
 //! Points on triangles, and where rays may start that leave them.
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 
 /// The point with the given weights of corners 1 and 2, each coordinate rounded to f32 once.
+#[inline]
 pub fn point_on(triangle: &[Vec3; 3], barycentrics: [f32; 2]) -> Vec3 {
     let [a, b, c] = triangle.map(Vec3::as_dvec3);
     let [v, w] = barycentrics.map(f64::from);
@@ -19,17 +20,20 @@ pub fn point_on(triangle: &[Vec3; 3], barycentrics: [f32; 2]) -> Vec3 {
 ///
 /// A coordinate near 0 has a tiny ulp but is no more exact than the f64 sum that it comes from; so a 2⁻³⁰th
 /// of the greatest coordinate is the least that counts as an ulp, and 2⁻¹⁰⁰ where all are 0.
+///
+/// All in f32: the products with n are off by 2⁻²⁴ of δ, which the thousandth covers too.
+#[inline]
 pub fn offset_origin(point: Vec3, geometric_normal: Vec3, direction: Vec3) -> Vec3 {
-    let side = if geometric_normal.dot(direction) < 0.0 { -1.0 } else { 1.0 };
-    let normal = geometric_normal.as_dvec3() * side;
-    let floor = f64::from(point.abs().max_element()) * 2f64.powi(-30) + 2f64.powi(-100);
-    let ulps = DVec3::from_array(point.to_array().map(|x| ulp(x).max(floor)));
-    let distance = 1.5015 * normal.abs().dot(ulps);
-    (point.as_dvec3() + normal * distance).as_vec3()
+    const TINY: f32 = 1.0 / (1u128 << 100) as f32;
+    let floor = point.abs().max_element() * (1.0 / (1 << 30) as f32) + TINY;
+    let ulps = Vec3::from_array(point.to_array().map(ulp)).max(Vec3::splat(floor));
+    let distance = 1.5015 * geometric_normal.abs().dot(ulps);
+    point + geometric_normal * distance.copysign(geometric_normal.dot(direction))
 }
 
-/// The distance from a number to the next greater in magnitude; 0 for numbers too small to be normal.
-fn ulp(x: f32) -> f64 {
+/// The distance from a number to the next greater in magnitude; 0 for numbers too small to have one in f32.
+#[inline]
+fn ulp(x: f32) -> f32 {
     // All bits but the exponent's cleared: the greatest power of two that is not above |x|.
-    f64::from(f32::from_bits(x.to_bits() & 0x7f80_0000)) * f64::from(f32::EPSILON)
+    f32::from_bits(x.to_bits() & 0x7f80_0000) * f32::EPSILON
 }

@@ -11,7 +11,7 @@
 
 use glam::Vec3;
 
-use super::exact;
+use super::exact::{self, Plane};
 use super::lanes::{Lanes, Row};
 use super::ray::PreparedRay;
 
@@ -23,6 +23,8 @@ pub(super) struct Packet {
     pub(super) corners: [[Row; 3]; 3],
     /// The triangles' indices in the list that the structure was built from.
     pub(super) primitives: [u32; 8],
+    /// Their planes, for close calls.
+    planes: [Plane; 8],
 }
 
 /// The nearest hit so far.
@@ -56,7 +58,8 @@ struct Crossing<V> {
 
 impl Packet {
     /// A packet without triangles.
-    pub(super) const EMPTY: Self = Self { corners: [[Row([f32::NAN; 8]); 3]; 3], primitives: [u32::MAX; 8] };
+    pub(super) const EMPTY: Self =
+        Self { corners: [[Row([f32::NAN; 8]); 3]; 3], primitives: [u32::MAX; 8], planes: [Plane::NONE; 8] };
 
     /// Puts a triangle into a lane.
     pub(super) fn set(&mut self, lane: usize, triangle: &[Vec3; 3], primitive: u32) {
@@ -66,31 +69,26 @@ impl Packet {
             }
         }
         self.primitives[lane] = primitive;
+        self.planes[lane] = Plane::new(triangle);
     }
 
-    /// The corners of the triangle in a lane.
+    /// Corner 0 of the triangle in a lane.
     #[inline(always)]
-    fn triangle(&self, lane: usize) -> [Vec3; 3] {
-        let [a, b, c] = &self.corners;
-        [
-            Vec3::new(a[0].0[lane], a[1].0[lane], a[2].0[lane]),
-            Vec3::new(b[0].0[lane], b[1].0[lane], b[2].0[lane]),
-            Vec3::new(c[0].0[lane], c[1].0[lane], c[2].0[lane]),
-        ]
+    fn first_corner(&self, lane: usize) -> Vec3 {
+        Vec3::from_array([0, 1, 2].map(|axis| self.corners[0][axis].0[lane]))
     }
 
     /// Settles in f64 at what distance the triangle in a lane is ahead, if it is.
-    #[cold]
-    #[inline(never)]
+    #[inline(always)]
     fn distance_ahead(&self, lane: usize, ray: &PreparedRay) -> Option<f32> {
-        exact::distance_ahead(&self.triangle(lane), Vec3::from(ray.origin), Vec3::from(ray.direction))
+        let (origin, direction) = (Vec3::from(ray.origin), Vec3::from(ray.direction));
+        exact::distance_ahead(&self.planes[lane], self.first_corner(lane), origin, direction)
     }
 
     /// Settles in f64 whether the triangle in a lane separates the ray's origin from `target`.
-    #[cold]
-    #[inline(never)]
+    #[inline(always)]
     fn separates(&self, lane: usize, ray: &PreparedRay, target: Vec3) -> bool {
-        exact::separates(&self.triangle(lane), Vec3::from(ray.origin), target)
+        exact::separates(&self.planes[lane], self.first_corner(lane), Vec3::from(ray.origin), target)
     }
 
     /// Replaces `nearest` by the nearest hit in this packet if that is nearer.

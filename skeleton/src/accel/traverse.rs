@@ -6,7 +6,7 @@ use glam::Vec3;
 
 use super::lanes::Lanes;
 use super::packet::Nearest;
-use super::ray::PreparedRay;
+use super::ray::{PreparedRay, Slabs};
 use super::tree::{Child, Kind, Node, Tree};
 
 /// Room for children that wait for their turn. A tree made by halving needs no more than seven for each of its
@@ -87,7 +87,7 @@ impl Stack {
 impl Node {
     /// A bit for each child whose box the ray meets before `end`, and the distances at which the boxes begin.
     #[inline(always)]
-    fn meet<V: Lanes>(&self, ray: &PreparedRay, end: f32) -> (u32, V) {
+    fn meet<V: Lanes>(&self, ray: &Slabs, end: f32) -> (u32, V) {
         let mut near = V::splat(0.0);
         let mut far = V::splat(end);
         for axis in 0..3 {
@@ -114,6 +114,7 @@ impl Tree {
             }
             return;
         }
+        let slabs = Slabs::new(ray, self.bounds);
         let mut stack = Stack::new();
         let mut next = Child::ROOT;
         loop {
@@ -121,7 +122,7 @@ impl Tree {
                 Kind::Packet(packet) => self.packets[packet].intersect::<V>(ray, nearest),
                 Kind::Node(node) => {
                     let node = &self.nodes[node];
-                    let (mut met, distances) = node.meet::<V>(ray, nearest.t);
+                    let (mut met, distances) = node.meet::<V>(&slabs, nearest.t);
                     let distances = distances.store();
                     let start = stack.length;
                     while met != 0 {
@@ -147,6 +148,7 @@ impl Tree {
         if self.nodes.is_empty() {
             return self.packets.iter().any(|packet| packet.occludes::<V>(ray, target, reach));
         }
+        let slabs = Slabs::new(ray, self.bounds);
         let mut stack = Stack::new();
         let mut next = Child::ROOT;
         loop {
@@ -159,7 +161,7 @@ impl Tree {
                 Kind::Node(node) => {
                     let node = &self.nodes[node];
                     // The nearest next, the others in any order: the first blocker found ends it all.
-                    let (mut met, distances) = node.meet::<V>(ray, 1.0);
+                    let (mut met, distances) = node.meet::<V>(&slabs, 1.0);
                     let distances = distances.store();
                     let mut nearest = Entry(u64::MAX);
                     while met != 0 {

@@ -89,6 +89,18 @@ impl Bsdf {
         Self { geometry, first, second: Some(second), first_probability }
     }
 
+    /// The reflectance, if the only lobe is a diffuse one.
+    ///
+    /// Most surfaces are like that. Their share of the functions below is small enough to be inlined; that of other
+    /// lobes is not.
+    #[inline]
+    fn only_diffuse(&self) -> Option<Rgb> {
+        match (self.first, self.second) {
+            (Lobe::Diffuse { albedo }, None) => Some(albedo),
+            _ => None,
+        }
+    }
+
     /// The value f(wo, wi) in 1/sr, without the cosine.
     ///
     /// Black from the horizon down, and black for the delta lobes, in whatever direction.
@@ -97,6 +109,11 @@ impl Bsdf {
         if !self.geometry.reflects(wi) {
             return Rgb::BLACK;
         }
+        self.only_diffuse().map_or_else(|| self.eval_lobes(wi), diffuse::eval)
+    }
+
+    #[inline(never)]
+    fn eval_lobes(&self, wi: Vec3) -> Rgb {
         let mut f = self.first.eval(&self.geometry, wi);
         if let Some(second) = &self.second {
             f += second.eval(&self.geometry, wi);
@@ -115,6 +132,11 @@ impl Bsdf {
         if !self.geometry.reflects(wi) {
             return 0.0;
         }
+        self.only_diffuse().map_or_else(|| self.pdf_of_lobes(wi), |_| diffuse::pdf(&self.geometry, wi))
+    }
+
+    #[inline(never)]
+    fn pdf_of_lobes(&self, wi: Vec3) -> f32 {
         let mut pdf = self.first_probability * self.first.pdf(&self.geometry, wi);
         if let Some(second) = &self.second {
             pdf += (1.0 - self.first_probability) * second.pdf(&self.geometry, wi);
@@ -128,6 +150,14 @@ impl Bsdf {
     /// path ends there, with no correction to be made.
     #[inline]
     pub fn sample(&self, sampler: &mut Sampler) -> Option<BsdfSample> {
+        match self.only_diffuse() {
+            Some(_) => self.sample_towards(diffuse::sample(&self.geometry, sampler)),
+            None => self.sample_lobes(sampler),
+        }
+    }
+
+    #[inline(never)]
+    fn sample_lobes(&self, sampler: &mut Sampler) -> Option<BsdfSample> {
         let (lobe, probability) = match &self.second {
             None => (&self.first, 1.0),
             Some(_) if sampler.draw() < self.first_probability => (&self.first, self.first_probability),
@@ -138,7 +168,12 @@ impl Bsdf {
             sample.pdf *= probability;
             return Some(sample);
         }
-        let wi = lobe.sample_direction(&self.geometry, sampler)?;
+        self.sample_towards(lobe.sample_direction(&self.geometry, sampler)?)
+    }
+
+    /// The sample for a direction that a lobe that is not a delta distribution has drawn.
+    #[inline]
+    fn sample_towards(&self, wi: Vec3) -> Option<BsdfSample> {
         let (f, pdf) = (self.eval(wi), self.pdf(wi));
         // A density of zero or infinity: below the horizon, or beyond what f32 can hold.
         if !(pdf > 0.0 && pdf.is_finite() && f.is_finite()) || f.is_black() {

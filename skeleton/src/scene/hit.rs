@@ -1,6 +1,6 @@
 //! The point where a ray meets a surface.
 
-use super::{NONE, Scene, Specular, Triangle};
+use super::{NONE, Scene, Specular, Surface, Triangle};
 use crate::accel::{TriangleHit, offset_origin, point_on};
 use crate::bsdf::{Bsdf, Glass, Lobe, LocalGeometry, Phong};
 use crate::light::Light;
@@ -71,41 +71,57 @@ impl<'a> Hit<'a> {
     /// How the surface scatters light at this point.
     #[inline]
     pub fn bsdf(&self) -> Bsdf {
-        let surface = &self.scene.surfaces[self.triangle.surface as usize];
         let geometry =
             LocalGeometry { normal: self.normal, geometric_normal: self.geometric_normal, wo: self.wo };
-        let specular = match surface.specular {
-            Specular::None => None,
-            Specular::Phong { reflectance, exponent } => {
-                Some((Lobe::Phong(Phong { reflectance, exponent }), reflectance))
-            }
-            Specular::Mirror { reflectance } => Some((Lobe::Mirror { reflectance }, reflectance)),
-            Specular::Glass { index, reflectance, transmittance } => {
-                let ratio = if self.front { 1.0 / index } else { index };
-                Some((Lobe::Glass(Glass { ratio, reflectance, transmittance }), transmittance))
-            }
-        };
+        let surface = self.surface();
+        match surface.specular {
+            Specular::None => Bsdf::single(geometry, Lobe::Diffuse { albedo: self.diffuse_albedo() }),
+            _ => self.specular_bsdf(geometry, surface),
+        }
+    }
+
+    #[inline(never)]
+    fn specular_bsdf(&self, geometry: LocalGeometry, surface: &Surface) -> Bsdf {
         let albedo = self.diffuse_albedo();
         let diffuse = Lobe::Diffuse { albedo };
-        match specular {
-            None => Bsdf::single(geometry, diffuse),
-            Some((lobe, _)) if albedo.is_black() => Bsdf::single(geometry, lobe),
-            Some((lobe, reflectance)) => {
-                // As often as it reflects light, by and large.
-                let (kd, ks) = (albedo.luminance(), reflectance.luminance());
-                Bsdf::mixture(geometry, diffuse, lobe, (kd / (kd + ks)).clamp(0.05, 0.95))
+        let (lobe, reflectance) = match surface.specular {
+            Specular::None => return Bsdf::single(geometry, diffuse),
+            Specular::Phong { reflectance, exponent } => {
+                (Lobe::Phong(Phong { reflectance, exponent }), reflectance)
             }
+            Specular::Mirror { reflectance } => (Lobe::Mirror { reflectance }, reflectance),
+            Specular::Glass { index, reflectance, transmittance } => {
+                let ratio = if self.front { 1.0 / index } else { index };
+                (Lobe::Glass(Glass { ratio, reflectance, transmittance }), transmittance)
+            }
+        };
+        if albedo.is_black() {
+            return Bsdf::single(geometry, lobe);
         }
+        // As often as it reflects light, by and large.
+        let (kd, ks) = (albedo.luminance(), reflectance.luminance());
+        Bsdf::mixture(geometry, diffuse, lobe, (kd / (kd + ks)).clamp(0.05, 0.95))
+    }
+
+    #[inline]
+    fn surface(&self) -> &'a Surface {
+        &self.scene.surfaces[self.triangle.surface as usize]
     }
 
     /// The diffuse reflectance at this point, with the texture applied.
     #[inline]
     pub(crate) fn diffuse_albedo(&self) -> Rgb {
-        let surface = &self.scene.surfaces[self.triangle.surface as usize];
+        let surface = self.surface();
         match surface.diffuse_map {
             None => surface.diffuse,
-            Some(map) => surface.diffuse * self.scene.textures[map as usize].lookup(self.uv()),
+            Some(map) => surface.diffuse * self.texel(map),
         }
+    }
+
+    /// The colour of a texture at this point.
+    #[inline(never)]
+    fn texel(&self, map: u32) -> Rgb {
+        self.scene.textures[map as usize].lookup(self.uv())
     }
 
     /// Texture coordinates, (0, 0) where the mesh has none.
