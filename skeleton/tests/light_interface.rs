@@ -239,3 +239,44 @@ fn lights_that_f32_cannot_measure_are_left_out_with_a_warning() {
         assert!(sample.pdf_area == 2.0);
     }
 }
+
+/// A square in the plane z = 0, once facing +z and once facing −z or +z again.
+fn doubled(second_faces_back: bool) -> Scene {
+    let mut scene = empty();
+    let square = quad(Vec3::ZERO, Vec3::X, Vec3::Y);
+    let turned = |&[a, b, c]: &[Vec3; 3]| if second_faces_back { [a, c, b] } else { [a, b, c] };
+    let other: Vec<_> = square.iter().map(turned).collect();
+    add(&mut scene, &square, Material { emission: Rgb::WHITE, ..black() });
+    add(&mut scene, &other, Material { emission: Rgb::gray(2.0), ..black() });
+    Scene::new(&scene)
+}
+
+#[test]
+fn a_light_facing_both_ways_is_hit_and_sampled_from_both_sides() {
+    let scene = doubled(true);
+    assert_eq!(scene.lights().len(), 4);
+    for (side, radiance) in [(1.0, 1.0), (-1.0, 2.0)] {
+        let from = Vec3::new(0.3, 0.4, side);
+        let hit = scene.intersect(&Ray::new(from, Vec3::new(0.0, 0.0, -side))).expect("the square is there");
+        let light = hit.light().expect("each side is a light");
+        assert_eq!(light.emission(&hit).radiance, Rgb::gray(radiance));
+        let seen: Vec<_> = scene
+            .lights()
+            .iter()
+            .filter_map(|light| light.sample_direct(from, &mut Sampler::new(0, (0, 0), 0)))
+            .collect();
+        assert_eq!(seen.len(), 2, "the two triangles that face this side");
+        assert!(seen.iter().all(|sample| sample.intensity == Rgb::gray(radiance)));
+    }
+}
+
+#[test]
+fn of_two_lights_in_the_same_place_only_the_one_that_can_be_hit_is_left() {
+    let scene = doubled(false);
+    assert_eq!(scene.lights().len(), 2);
+    assert!(scene.lights().iter().enumerate().all(|(index, light)| light.index() == index));
+    let hit = scene.intersect(&Ray::new(Vec3::new(0.3, 0.4, 1.0), Vec3::NEG_Z)).expect("the square is there");
+    let light = hit.light().expect("it is a light");
+    assert_eq!(light.emission(&hit).radiance, Rgb::WHITE);
+    assert!(scene.warnings()[0].contains("the first counts"));
+}

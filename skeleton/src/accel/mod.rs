@@ -36,6 +36,7 @@ pub struct Accel {
     #[cfg(target_arch = "x86_64")]
     avx2: bool,
     stats: AccelStats,
+    duplicates: Vec<[u32; 2]>,
 }
 
 /// What was built, for messages.
@@ -89,7 +90,7 @@ impl Accel {
         let stats = AccelStats {
             triangles: cleaned.triangles.len(),
             degenerate: cleaned.degenerate,
-            duplicates: cleaned.duplicates,
+            duplicates: cleaned.duplicates.len(),
             nodes: tree.nodes.len(),
             depth: tree.depth,
             packets: tree.packets.len(),
@@ -99,6 +100,7 @@ impl Accel {
             #[cfg(target_arch = "x86_64")]
             avx2: std::arch::is_x86_feature_detected!("avx2"),
             stats,
+            duplicates: cleaned.duplicates,
             tree,
         }
     }
@@ -106,6 +108,11 @@ impl Accel {
     /// What was built.
     pub fn stats(&self) -> AccelStats {
         self.stats
+    }
+
+    /// The triangles that were left out because an earlier one has the same corners, each with that one.
+    pub fn duplicates(&self) -> &[[u32; 2]] {
+        &self.duplicates
     }
 
     /// The nearest hit between 0 and `t_max`, both excluded; distances are in lengths of `direction`.

@@ -62,6 +62,11 @@ impl Light {
         Self { index, shape }
     }
 
+    /// The same light in another place of the list.
+    pub(crate) fn renumbered(self, index: usize) -> Self {
+        Self { index, ..self }
+    }
+
     /// Draws a random point of this light, as seen from the point `from` (world space).
     ///
     /// `None` if no light goes from there to `from`: behind the light, in its plane, outside of its cone, at no

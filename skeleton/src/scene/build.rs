@@ -70,7 +70,14 @@ impl Builder {
                     self.first_material = 1;
                 }
                 let light = self.push_light(Shape::Triangle(light));
-                self.triangles.push(Triangle { vertices, normal, surface: 0, light, attributes: NONE });
+                self.triangles.push(Triangle {
+                    vertices,
+                    normal,
+                    surface: 0,
+                    light,
+                    back_light: NONE,
+                    attributes: NONE,
+                });
             }
         }
     }
@@ -100,7 +107,7 @@ impl Builder {
             NONE
         };
         let surface = self.first_material + triangle.material;
-        self.triangles.push(Triangle { vertices, normal, surface, light, attributes });
+        self.triangles.push(Triangle { vertices, normal, surface, light, back_light: NONE, attributes });
     }
 
     fn push_light(&mut self, shape: Shape) -> u32 {
@@ -109,9 +116,10 @@ impl Builder {
         index as u32
     }
 
-    fn finish(self, description: &SceneDescription) -> Scene {
+    fn finish(mut self, description: &SceneDescription) -> Scene {
         let corners: Vec<[Vec3; 3]> = self.triangles.iter().map(|triangle| triangle.vertices).collect();
         let accel = Accel::build(&corners);
+        self.settle_duplicates(accel.duplicates());
         let features = self.features(description, &accel);
         let mut warnings = Vec::new();
         if self.degenerate > 0 {
@@ -135,6 +143,46 @@ impl Builder {
             defaults: description.defaults,
             features,
             warnings,
+        }
+    }
+
+    /// Of triangles in the same place rays can hit only the first. A later one that is a light becomes the back of
+    /// the first if it faces the other way; else it is no light, or light samples would find what no ray can hit.
+    fn settle_duplicates(&mut self, duplicates: &[[u32; 2]]) {
+        let mut dropped = vec![false; self.lights.len()];
+        for &[later, first] in duplicates {
+            let later = &self.triangles[later as usize];
+            let (light, normal) = (later.light, later.normal);
+            if light == NONE {
+                continue;
+            }
+            let first = &mut self.triangles[first as usize];
+            if first.normal.dot(normal) < 0.0 && first.back_light == NONE {
+                first.back_light = light;
+            } else {
+                dropped[light as usize] = true;
+            }
+        }
+        if !dropped.contains(&true) {
+            return;
+        }
+        let mut kept = 0;
+        let renumbered: Vec<u32> = dropped
+            .iter()
+            .map(|&dropped| {
+                kept += u32::from(!dropped);
+                if dropped { NONE } else { kept - 1 }
+            })
+            .collect();
+        let lights = std::mem::take(&mut self.lights).into_iter().zip(&renumbered);
+        self.lights = lights
+            .filter(|(_, number)| **number != NONE)
+            .map(|(light, &number)| light.renumbered(number as usize))
+            .collect();
+        for triangle in &mut self.triangles {
+            for light in [&mut triangle.light, &mut triangle.back_light] {
+                *light = renumbered.get(*light as usize).copied().unwrap_or(NONE);
+            }
         }
     }
 

@@ -65,7 +65,8 @@ impl<'a> Hit<'a> {
     /// their front only.
     #[inline]
     pub fn light(&self) -> Option<&'a Light> {
-        (self.front && self.triangle.light != NONE).then(|| &self.scene.lights[self.triangle.light as usize])
+        let light = if self.front { self.triangle.light } else { self.triangle.back_light };
+        (light != NONE).then(|| &self.scene.lights[light as usize])
     }
 
     /// How the surface scatters light at this point.

@@ -43,8 +43,10 @@ struct Triangle {
     normal: Vec3,
     /// Index into [`Scene::surfaces`].
     surface: u32,
-    /// Index into [`Scene::lights`], or [`NONE`].
+    /// The light that its front is: index into [`Scene::lights`], or [`NONE`].
     light: u32,
+    /// The light that its back is, if another triangle stood there the other way round.
+    back_light: u32,
     /// Index into [`Scene::attributes`], or [`NONE`].
     attributes: u32,
 }
