@@ -134,7 +134,7 @@ fn meet(triangle: &Triangle, origin: Vec3, direction: Vec3) -> (f64, f64) {
 fn hits_are_those_of_brute_force() {
     let mut random = Random(1);
     let mut hits = 0;
-    for count in [1, 7, 8, 9, 16, 17, 40, 300] {
+    for count in [1, 7, 8, 9, 16, 17, 40, 41, 60, 300] {
         let triangles = soup(&mut random, count);
         let accel = Accel::build(&triangles);
         assert_eq!(accel.stats().triangles, count);
