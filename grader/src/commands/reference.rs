@@ -55,7 +55,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         let made = reference::make(&program, &description, &wanted, Effort::default(), arguments.seed)?;
         reference::save(&made, &workspace.reference_file(scene))?;
         if !arguments.no_pictures {
-            let max_bounces = wanted.keys().next_back().copied().unwrap_or(1);
+            let max_bounces = wanted.keys().next_back().map_or(1, |view| view.max_bounces);
             let settings = Settings { technique: Technique::Mis, max_bounces };
             let picture = reference::picture(
                 &program,

@@ -128,6 +128,8 @@ impl Bsdf {
     /// path ends there, with no correction to be made.
     #[inline]
     pub fn sample(&self, sampler: &mut Sampler) -> Option<BsdfSample> {
+        #[cfg(feature = "probe")]
+        crate::probe::count(|counts| counts.bsdf_samples += 1);
         let (lobe, probability) = match &self.second {
             None => (&self.first, 1.0),
             Some(_) if sampler.draw() < self.first_probability => (&self.first, self.first_probability),

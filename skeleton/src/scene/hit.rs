@@ -18,7 +18,7 @@ pub struct Hit<'a> {
     pub geometric_normal: Vec3,
     /// The direction back to where the ray came from: a unit vector, away from the surface.
     pub wo: Vec3,
-    scene: &'a Scene,
+    pub(super) scene: &'a Scene,
     triangle: &'a Triangle,
     barycentrics: [f32; 2],
     /// True if the ray came from the front.
@@ -74,6 +74,10 @@ impl<'a> Hit<'a> {
         let surface = &self.scene.surfaces[self.triangle.surface as usize];
         let geometry =
             LocalGeometry { normal: self.normal, geometric_normal: self.geometric_normal, wo: self.wo };
+        #[cfg(feature = "probe")]
+        if let Some(script) = surface.script {
+            return Bsdf::single(geometry, Lobe::Scripted(script.seen_from(self.point)));
+        }
         let specular = match surface.specular {
             Specular::None => None,
             Specular::Phong { reflectance, exponent } => {
