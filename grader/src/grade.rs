@@ -61,7 +61,8 @@ pub fn grade(
     if let Ok(program) = &built {
         let bench = bench(program, &scenes, submission, options, selected.len());
         for (task, spec) in &selected {
-            if let Some(why) = plan::why_left_out(spec, &scenes[&spec.scene]) {
+            let judged = scenes.get(&spec.scene);
+            if let Some(why) = judged.and_then(|judged| plan::why_left_out(spec, judged)) {
                 left_out.push(LeftOut { check: spec.id(), scene: spec.scene.clone(), why });
                 continue;
             }
@@ -151,7 +152,7 @@ fn select<'a>(rubric: &'a Rubric, only: &[String]) -> Result<Selected<'a>> {
 
 fn load_scenes(workspace: &Workspace, selected: &Selected<'_>) -> Result<BTreeMap<String, JudgedScene>> {
     let mut scenes = BTreeMap::new();
-    for (_, spec) in selected {
+    for (_, spec) in selected.iter().filter(|(_, spec)| spec.check.needs_scene()) {
         if !scenes.contains_key(&spec.scene) {
             let description = arty::scene::file::load(&workspace.scene_file(&spec.scene))?.description;
             let reference =

@@ -7,7 +7,9 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
 use arty::scene::SceneDescription;
-use host::protocol::{RenderJob, Rendered, Request, Response, read_message, write_message};
+use host::protocol::{
+    ProbeJob, ProbedPath, RenderJob, Rendered, Request, Response, read_message, write_message,
+};
 use serde::{Deserialize, Serialize};
 
 use crate::build::HandInProgram;
@@ -105,6 +107,23 @@ impl HostProcess {
         }
     }
 
+    /// Follows paths through scripted scenes: for each scene as many as asked for. Their radiance may be anything.
+    pub fn probe(&mut self, job: &ProbeJob) -> Answer<Vec<Vec<ProbedPath>>> {
+        match self.ask(&Request::Probe(Cow::Borrowed(job)))? {
+            Ok(Response::Probed(paths)) => {
+                let whole = paths.len() == job.scenes.len()
+                    && paths.iter().all(|paths| paths.len() as u64 == job.samples);
+                Ok(if whole {
+                    Ok(paths)
+                } else {
+                    Err(Fault::Malformed("the number of scenes or paths is wrong".to_owned()))
+                })
+            }
+            Ok(other) => unexpected(other),
+            Err(fault) => Ok(Err(fault)),
+        }
+    }
+
     fn ask(&mut self, request: &Request<'_>) -> Answer<Response> {
         if write_message(&mut self.requests, request).is_err() {
             return Ok(Err(self.crash()));
@@ -142,6 +161,7 @@ fn unexpected<T>(response: Response) -> Answer<T> {
         Response::Panicked { message } => Ok(Err(Fault::Panic(message))),
         Response::Rejected { message } => Err(Error::Harness(format!("the host rejected a job: {message}"))),
         Response::SceneReady => Ok(Err(Fault::Malformed("it only said that a scene is ready".to_owned()))),
+        Response::Probed(_) => Ok(Err(Fault::Malformed("paths that nobody asked for".to_owned()))),
         Response::Rendered(_) => Ok(Err(Fault::Malformed("a rendering that nobody asked for".to_owned()))),
     }
 }

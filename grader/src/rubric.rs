@@ -44,12 +44,16 @@ pub struct Task {
 pub struct CheckSpec {
     /// Which kind of check.
     pub check: CheckKind,
-    /// In which scene.
+    /// In which scene; [`SCRIPTED`] for the kinds that make their own.
+    #[serde(default = "scripted")]
     pub scene: String,
     /// With which technique of the hand-in.
     pub technique: Technique,
     /// The largest number of bounces.
     pub max_bounces: u32,
+    /// `off` if lights that a path hits emit nothing, so that only next event estimation finds light.
+    #[serde(default)]
+    pub hits: Hits,
     /// How many shares of the task's points it carries.
     #[serde(default = "one")]
     pub weight: f64,
@@ -61,6 +65,29 @@ pub struct CheckSpec {
     pub tolerance: f64,
 }
 
+/// The name that stands for the scene of checks that make their own.
+pub const SCRIPTED: &str = "scripted";
+
+/// Whether lights that a path hits emit anything.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Hits {
+    /// They do not: what is left is next event estimation alone.
+    Off,
+    /// They do, as ever.
+    #[default]
+    On,
+}
+
+/// Which light a picture shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct View {
+    /// The largest number of bounces.
+    pub max_bounces: u32,
+    /// Whether lights that are hit count.
+    pub hits: Hits,
+}
+
 /// The kinds of checks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -69,6 +96,8 @@ pub enum CheckKind {
     MeanBias,
     /// Means against the closed form of a uniformly emitting enclosure.
     WhiteFurnace,
+    /// The weights of multiple importance sampling, one by one; `max_bounces` is the longest path that is looked at.
+    MisWeights,
 }
 
 impl CheckKind {
@@ -77,15 +106,31 @@ impl CheckKind {
         match self {
             Self::MeanBias => "mean-bias",
             Self::WhiteFurnace => "white-furnace",
+            Self::MisWeights => "mis-weights",
         }
+    }
+
+    /// True if it is looked at in a scene of the collection.
+    pub fn needs_scene(self) -> bool {
+        self != Self::MisWeights
     }
 }
 
 impl CheckSpec {
     /// What tells this check from all others: `mean-bias/cornell_box/nee/8`.
     pub fn id(&self) -> String {
-        format!("{}/{}/{}/{}", self.check.name(), self.scene, self.technique, self.max_bounces)
+        let hits = if self.hits == Hits::Off { "/hits-off" } else { "" };
+        format!("{}/{}/{}/{}{hits}", self.check.name(), self.scene, self.technique, self.max_bounces)
     }
+
+    /// Which light its pictures show.
+    pub fn view(&self) -> View {
+        View { max_bounces: self.max_bounces, hits: self.hits }
+    }
+}
+
+fn scripted() -> String {
+    SCRIPTED.to_owned()
 }
 
 fn one() -> f64 {
@@ -122,6 +167,26 @@ impl Rubric {
                 if !(check.weight.is_finite() && check.weight > 0.0) {
                     return Err(format!("task {id}, {}: `weight` must be a positive number", check.id()));
                 }
+                if check.check.needs_scene() == (check.scene == SCRIPTED) {
+                    let what = if check.check.needs_scene() { "needs a `scene`" } else { "takes no `scene`" };
+                    return Err(format!("task {id}, {}: {what}", check.id()));
+                }
+                if check.hits == Hits::Off
+                    && (check.check, check.technique) != (CheckKind::MeanBias, Technique::Nee)
+                {
+                    return Err(format!(
+                        "task {id}, {}: `hits: off` goes with mean-bias and nee only",
+                        check.id()
+                    ));
+                }
+                if check.check == CheckKind::MisWeights
+                    && (check.technique != Technique::Mis || !(1..=3).contains(&check.max_bounces))
+                {
+                    return Err(format!(
+                        "task {id}, {}: mis-weights goes with the technique mis and 1 to 3 bounces only",
+                        check.id()
+                    ));
+                }
                 if !(check.tolerance > 0.0 && check.tolerance < 1.0) {
                     return Err(format!("task {id}, {}: `tolerance` must be between 0 and 1", check.id()));
                 }
@@ -135,11 +200,11 @@ impl Rubric {
         self.tasks.iter().flat_map(|task| task.checks.iter().map(move |check| (task, check)))
     }
 
-    /// For each scene that is checked: by the largest number of bounces, the techniques.
-    pub fn scenes(&self) -> BTreeMap<&str, BTreeMap<u32, Vec<Technique>>> {
-        let mut scenes: BTreeMap<&str, BTreeMap<u32, Vec<Technique>>> = BTreeMap::new();
-        for (_, check) in self.checks() {
-            let techniques = scenes.entry(&check.scene).or_default().entry(check.max_bounces).or_default();
+    /// For each scene that is checked: for each picture of it the techniques.
+    pub fn scenes(&self) -> BTreeMap<&str, BTreeMap<View, Vec<Technique>>> {
+        let mut scenes: BTreeMap<&str, BTreeMap<View, Vec<Technique>>> = BTreeMap::new();
+        for (_, check) in self.checks().filter(|(_, check)| check.check.needs_scene()) {
+            let techniques = scenes.entry(&check.scene).or_default().entry(check.view()).or_default();
             if !techniques.contains(&check.technique) {
                 techniques.push(check.technique);
             }
@@ -172,6 +237,15 @@ mod tests {
             (task(&format!("checks: [{CHECK}, evidence: true, weight: -1}}]")), "`weight` must be"),
             (task(&format!("checks: [{CHECK}, evidence: true, tolerance: 2}}]")), "`tolerance` must be"),
             (task(&format!("checks: [{CHECK}, evidence: true, colour: 2}}]")), "rubric.yml:4: "),
+            (
+                task("checks: [{check: mis-weights, technique: nee, max_bounces: 3, evidence: true}]"),
+                "the technique mis",
+            ),
+            (
+                task("checks: [{check: mean-bias, technique: nee, max_bounces: 3, evidence: true}]"),
+                "needs a `scene`",
+            ),
+            (task(&format!("checks: [{CHECK}, evidence: true, hits: no}}]")), "rubric.yml:4: "),
             ("tasks: [".to_owned(), "rubric.yml:"),
         ] {
             let message = load(&text).expect_err(expected);

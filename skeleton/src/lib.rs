@@ -17,6 +17,7 @@
 //! | [`film`], [`render`](mod@render) | gathering samples |
 //! | [`srgb`], `image` | pictures in memory, in files, in a viewer |
 //! | `cli` | the program around all this |
+//! | `probe` | what the grader may script, switch off and count; in no other build |
 //!
 //! # Units and conventions
 //! Positions and directions are in world space, right-handed. Directions are unit vectors that point away from the
@@ -36,6 +37,8 @@ pub mod integrator;
 pub mod light;
 pub mod math;
 pub mod prelude;
+#[cfg(feature = "probe")]
+pub mod probe;
 pub mod ray;
 pub mod render;
 pub mod sampler;

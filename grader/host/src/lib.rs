@@ -1,13 +1,22 @@
 //! Runs one hand-in and answers the grader's jobs.
 //!
-//! The hand-in is linked into a small fixed program (`program/main.rs`) whose `main` calls [`serve`]. The process
+//! The hand-in is linked into a small fixed program (`program/main.rs`) whose `main` calls `serve`. The process
 //! reads [`Request`](protocol::Request)s from its standard input and writes a [`Response`](protocol::Response) to
 //! each to what was its standard output; whatever the hand-in prints goes to standard error. It has no say in
 //! anything else: it gives numbers, and the grader judges them.
 
+//!
+//! Without the feature `serve` there is only the protocol, for the grader.
+
+#[cfg(feature = "serve")]
+mod probe;
 pub mod protocol;
+#[cfg(feature = "serve")]
 mod render;
+#[cfg(feature = "serve")]
 mod serve;
+#[cfg(feature = "serve")]
 mod stdio;
 
+#[cfg(feature = "serve")]
 pub use serve::{Constructor, serve};

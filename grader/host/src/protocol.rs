@@ -6,6 +6,7 @@ use std::borrow::Cow;
 use std::io::{self, Read, Write};
 
 use arty::integrator::Settings;
+use arty::math::Vec3;
 use arty::scene::SceneDescription;
 use serde::Deserialize;
 use serde::{Serialize, de::DeserializeOwned};
@@ -20,6 +21,8 @@ pub enum Request<'a> {
     Scene(Cow<'a, SceneDescription>),
     /// Render batches of a scene.
     Render(Cow<'a, RenderJob>),
+    /// Follow paths through small scripted scenes.
+    Probe(Cow<'a, ProbeJob>),
 }
 
 /// Independent renderings of one scene.
@@ -39,6 +42,67 @@ pub struct RenderJob {
     pub first_sample: u64,
     /// Samples of each pixel in each batch.
     pub samples: u64,
+    /// Ways of finding light that are closed.
+    pub switches: Switches,
+}
+
+/// Which ways of finding light are closed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Switches {
+    /// Lights that are hit emit nothing: their emission is black.
+    pub hits_off: bool,
+    /// Every point is occluded from every other.
+    pub shadows_off: bool,
+}
+
+/// Paths through scripted scenes.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct ProbeJob {
+    /// What the hand-in's path tracer is made with.
+    pub settings: Settings,
+    /// The scenes, one after the other.
+    pub scenes: Vec<ScriptedScene>,
+    /// How many paths are followed in each: they differ in the hand-in's own random numbers only.
+    pub samples: u64,
+    /// The seed of these random numbers.
+    pub seed: u64,
+}
+
+/// A scene of which densities and BSDFs are scripted; its geometry is true.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct ScriptedScene {
+    /// The scene. Its camera is not used.
+    pub scene: SceneDescription,
+    /// One for each material; `None` leaves it as it is.
+    pub bsdfs: Vec<Option<ScriptedBsdf>>,
+    /// One for each light, those of the description first; `None` leaves it as it is.
+    pub lights: Vec<Option<ScriptedLight>>,
+    /// Where the camera's ray starts, in world space.
+    pub origin: Vec3,
+    /// Where it goes: a unit vector.
+    pub direction: Vec3,
+}
+
+/// A BSDF with the same value and density for all directions above the horizon.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ScriptedBsdf {
+    /// The point (world space) to which every direction goes that is drawn.
+    pub target: Vec3,
+    /// Its value in every channel, 1/sr; for a delta distribution that of the one direction.
+    pub f: f32,
+    /// Its density per solid angle; for a delta distribution the probability of the one direction. Greater than 0.
+    pub pdf: f32,
+    /// True if it is a delta distribution.
+    pub is_delta: bool,
+}
+
+/// A triangle light of which one point is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ScriptedLight {
+    /// The point in world space; on the light.
+    pub point: Vec3,
+    /// The density per area with which every point of the light claims to be drawn. Greater than 0.
+    pub pdf_area: f32,
 }
 
 /// An answer of the host: exactly one to each request.
@@ -48,6 +112,8 @@ pub enum Response {
     SceneReady,
     /// The batches are rendered.
     Rendered(Rendered),
+    /// For each scripted scene what its paths found.
+    Probed(Vec<Vec<ProbedPath>>),
     /// The hand-in panicked.
     Panicked {
         /// What it said.
@@ -58,6 +124,21 @@ pub enum Response {
         /// Why.
         message: String,
     },
+}
+
+/// One path of a [`ProbeJob`].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ProbedPath {
+    /// The radiance that it found. It may be anything, NaN too.
+    pub radiance: [f32; 3],
+    /// Calls of `Scene::intersect`.
+    pub rays: u32,
+    /// Calls of `Scene::occluded`.
+    pub shadow_rays: u32,
+    /// Calls of `Light::sample_direct`.
+    pub light_samples: u32,
+    /// Calls of `Bsdf::sample`.
+    pub bsdf_samples: u32,
 }
 
 /// The batches of a [`RenderJob`].

@@ -9,8 +9,8 @@ use std::sync::Mutex;
 use arty::integrator::{Integrator, Settings};
 use arty::scene::Scene;
 
-use crate::protocol::{MAX_MESSAGE, Request, Response, read_message, write_message};
-use crate::{render, stdio};
+use crate::protocol::{MAX_MESSAGE, Request, Response, Switches, read_message, write_message};
+use crate::{probe, render, stdio};
 
 /// Makes the hand-in's path tracer.
 pub type Constructor = fn(Settings) -> Box<dyn Integrator>;
@@ -39,24 +39,35 @@ fn answer_all(
     input: &mut impl Read,
     output: &mut impl Write,
 ) -> std::io::Result<()> {
-    let mut scenes = Vec::new();
+    let mut scenes: Vec<Scene> = Vec::new();
     while let Some(request) = read_message(input, MAX_MESSAGE)? {
         let response = match request {
             Request::Scene(description) => {
                 scenes.push(Scene::new(&description));
                 Response::SceneReady
             }
-            Request::Render(job) => match scenes.get(job.scene as usize) {
+            Request::Render(job) => match scenes.get_mut(job.scene as usize) {
                 None => Response::Rejected { message: format!("there is no scene {}", job.scene) },
-                Some(scene) => catch_unwind(AssertUnwindSafe(|| {
-                    Response::Rendered(render::batches(constructor, scene, &job))
-                }))
-                .unwrap_or_else(|_| Response::Panicked { message: first_panic() }),
+                Some(scene) => {
+                    scene.set_switches(switches(job.switches));
+                    guarded(|| Response::Rendered(render::batches(constructor, scene, &job)))
+                }
             },
+            Request::Probe(job) => guarded(|| Response::Probed(probe::all(constructor, &job))),
         };
         write_message(output, &response)?;
     }
     Ok(())
+}
+
+fn switches(switches: Switches) -> arty::probe::Switches {
+    let Switches { hits_off, shadows_off } = switches;
+    arty::probe::Switches { hits_off, shadows_off }
+}
+
+/// Runs code of the hand-in.
+fn guarded(answer: impl FnOnce() -> Response) -> Response {
+    catch_unwind(AssertUnwindSafe(answer)).unwrap_or_else(|_| Response::Panicked { message: first_panic() })
 }
 
 /// What the first panic said, and where.

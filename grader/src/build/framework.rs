@@ -41,7 +41,7 @@ impl Framework {
     /// Builds the framework, or finds that it is up to date.
     pub fn build(workspace: &Workspace) -> Result<Self> {
         let output = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
-            .args(["build", "--package", "host", "--profile", "grading", "--locked"])
+            .args(["build", "--package", "host", "--features", "serve", "--profile", "grading", "--locked"])
             .args(["--message-format", "json-render-diagnostics", "--target-dir"])
             .arg(workspace.framework_target())
             .current_dir(workspace.root())

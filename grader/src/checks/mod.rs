@@ -1,22 +1,24 @@
 //! What is looked at: one file a check.
 
 mod mean_bias;
+mod mis_weights;
 mod white_furnace;
 
+pub use mis_weights::Weights;
 pub use white_furnace::is_furnace;
 
 use std::collections::BTreeMap;
 use std::time::Instant;
 
 use arty::scene::{Scene, SceneDescription};
-use host::protocol::{AnomalousSample, RenderJob};
+use host::protocol::{AnomalousSample, RenderJob, Switches};
 
 use crate::build::HandInProgram;
 use crate::error::Result;
 use crate::host_process::{Fault, HostProcess};
 use crate::reference::{Reference, SIZE};
 use crate::report::{CheckResult, Reason, Verdict};
-use crate::rubric::{CheckKind, CheckSpec, Task};
+use crate::rubric::{CheckKind, CheckSpec, Hits, Task};
 use crate::statistics::bias::Expected;
 use crate::statistics::regions::{pyramid, weighted_image};
 use crate::statistics::sequential::{CONFIRMATION_LEVEL, Decision, Demand, Judgement, Question, judge};
@@ -53,12 +55,56 @@ impl Bench<'_> {
     /// # Errors
     /// What is not the hand-in's doing. All else is in the result.
     pub fn run(&self, task: &Task, spec: &CheckSpec) -> Result<CheckResult> {
-        let judged = &self.scenes[&spec.scene];
         let expected = match spec.check {
-            CheckKind::MeanBias => mean_bias::expected(spec, &judged.reference)?,
-            CheckKind::WhiteFurnace => white_furnace::expected(spec, judged)?,
+            CheckKind::MeanBias => mean_bias::expected(spec, &self.scenes[&spec.scene].reference)?,
+            CheckKind::WhiteFurnace => white_furnace::expected(spec, &self.scenes[&spec.scene])?,
+            CheckKind::MisWeights => return self.probe_weights(task, spec),
         };
-        self.compare_means(task, spec, judged, &expected)
+        self.compare_means(task, spec, &self.scenes[&spec.scene], &expected)
+    }
+
+    /// Judges the weights of the hand-in, one by one.
+    fn probe_weights(&self, task: &Task, spec: &CheckSpec) -> Result<CheckResult> {
+        let start = Instant::now();
+        let mut process = HostProcess::start(self.program, self.threads)?;
+        let mut result = self.begin(task, spec);
+        match mis_weights::run(&mut process, spec, self.seed_of(spec))? {
+            Ok(outcome) => {
+                result.verdict = outcome.verdict;
+                result.reason = outcome.reason;
+                result.explanation = outcome.explanation;
+                result.weights = outcome.weights;
+                result.samples = outcome.samples;
+            }
+            Err(fault) => blame(&mut result, fault),
+        }
+        result.seconds = start.elapsed().as_secs_f64();
+        Ok(result)
+    }
+
+    /// The result of a check before anything is known.
+    fn begin(&self, task: &Task, spec: &CheckSpec) -> CheckResult {
+        CheckResult {
+            id: spec.id(),
+            check: spec.check,
+            scene: spec.scene.clone(),
+            task: task.id.clone(),
+            technique: spec.technique,
+            max_bounces: spec.max_bounces,
+            evidence: spec.evidence,
+            verdict: Verdict::Error,
+            reason: Reason::Harness,
+            explanation: String::new(),
+            effect: None,
+            interval: None,
+            detectable: None,
+            samples: 0,
+            seconds: 0.0,
+            non_finite: 0,
+            negative: 0,
+            weights: None,
+            repeat: format!("{} --only={}", self.command, spec.id()),
+        }
     }
 
     /// Judges the means of the hand-in's renderings.
@@ -93,37 +139,12 @@ impl Bench<'_> {
                 Ok(rendered.batches)
             }),
         };
-        let mut result = CheckResult {
-            id: spec.id(),
-            check: spec.check,
-            scene: spec.scene.clone(),
-            task: task.id.clone(),
-            technique: spec.technique,
-            max_bounces: spec.max_bounces,
-            evidence: spec.evidence,
-            verdict: Verdict::Error,
-            reason: Reason::Harness,
-            explanation: String::new(),
-            effect: None,
-            interval: None,
-            detectable: None,
-            samples: 0,
-            seconds: 0.0,
-            non_finite: numerics.non_finite,
-            negative: numerics.negative,
-            repeat: format!("{} --only={}", self.command, spec.id()),
-        };
+        let mut result = self.begin(task, spec);
+        result.non_finite = numerics.non_finite;
+        result.negative = numerics.negative;
         match judgement {
             Ok(judgement) => describe(&mut result, &judgement, spec),
-            Err(Stop::HandIn(fault)) => {
-                result.verdict = Verdict::Fail;
-                result.reason = match fault {
-                    Fault::Timeout => Reason::Timeout,
-                    Fault::Panic(_) | Fault::Crash(_) => Reason::Crash,
-                    Fault::Malformed(_) => Reason::Violation,
-                };
-                result.explanation = fault.to_string();
-            }
+            Err(Stop::HandIn(fault)) => blame(&mut result, fault),
             Err(Stop::Harness(error)) => return Err(error),
         }
         if let Some(first) = numerics.first.first() {
@@ -149,6 +170,17 @@ impl Bench<'_> {
     }
 }
 
+/// The hand-in did not answer as it should.
+fn blame(result: &mut CheckResult, fault: Fault) {
+    result.verdict = Verdict::Fail;
+    result.explanation = fault.to_string();
+    result.reason = match fault {
+        Fault::Timeout => Reason::Timeout,
+        Fault::Panic(_) | Fault::Crash(_) => Reason::Crash,
+        Fault::Malformed(_) => Reason::Violation,
+    };
+}
+
 /// Why samples stopped coming.
 enum Stop {
     HandIn(Fault),
@@ -172,6 +204,7 @@ fn render_job(scene: u32, spec: &CheckSpec, demand: &Demand) -> RenderJob {
         seeds: demand.seeds.clone(),
         first_sample: demand.first_sample,
         samples: demand.samples,
+        switches: Switches { hits_off: spec.hits == Hits::Off, ..Switches::default() },
     }
 }
 

@@ -63,7 +63,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
             reference::save(&made, &workspace.reference_file(scene))?;
         }
         if !arguments.no_pictures {
-            let max_bounces = wanted.keys().next_back().copied().unwrap_or(1);
+            let max_bounces = wanted.keys().next_back().map_or(1, |view| view.max_bounces);
             let settings = Settings { technique: Technique::Mis, max_bounces };
             let picture = reference::picture(
                 &program,

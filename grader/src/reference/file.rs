@@ -1,7 +1,8 @@
 //! References as EXR files.
 //!
 //! The main picture is the mean at the largest number of bounces, so that any viewer shows the scene. All else is
-//! in layers: `bounces1.mean`, `bounces1.variance` (of the mean), `bounces1.nee.deviation`, `bounces1.nee.skewness`.
+//! in layers: `bounces1.mean`, `bounces1.variance` (of the mean), `bounces1.nee.deviation`, `bounces1.nee.skewness`;
+//! `bounces1.hits-off.mean` and so on for next event estimation alone.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -14,21 +15,23 @@ use arty::scene::SceneDescription;
 
 use super::{Light, Moments, Reference, SIZE};
 use crate::error::{Error, Result};
+use crate::rubric::{Hits, View};
 
 const SCENE_HASH: &str = "arty:scene_hash";
 const PROVENANCE: &str = "arty:";
+const HITS_OFF: &str = ".hits-off";
 
 /// Writes a reference.
 pub fn save(reference: &Reference, path: &Path) -> Result<()> {
-    let Some(most) = reference.by_bounces.values().next_back() else {
+    let Some(most) = reference.views.values().next_back() else {
         return Err(Error::Harness(format!("{}: a reference without an image", path.display())));
     };
     let mut file = ExrFile::new(&to_image(&most.mean)).with_metadata(SCENE_HASH, &reference.scene_hash);
     for (key, value) in &reference.provenance {
         file = file.with_metadata(format!("{PROVENANCE}{key}"), value);
     }
-    for (bounces, light) in &reference.by_bounces {
-        let name = |rest: &str| format!("bounces{bounces}.{rest}");
+    for (view, light) in &reference.views {
+        let name = |rest: &str| format!("{}.{rest}", layer_name(view));
         file = file.with_layer(&name("mean"), &to_image(&light.mean));
         file = file.with_layer(&name("variance"), &to_image(&light.variance_of_mean));
         for (technique, moments) in &light.techniques {
@@ -56,9 +59,9 @@ pub fn load(path: &Path, scene: &str, description: &SceneDescription) -> Result<
     }
     let layer = |name: &str| file.layer(name).map(|image| from_image(&image));
     let broken = || Error::file(path, format!("a layer is missing or holds no sound numbers; {renew}"));
-    let mut by_bounces = BTreeMap::new();
-    for bounces in file.channels.keys().filter_map(|channel| bounces_of(channel)) {
-        let name = |rest: &str| format!("bounces{bounces}.{rest}");
+    let mut views = BTreeMap::new();
+    for view in file.channels.keys().filter_map(|channel| view_of(channel)) {
+        let name = |rest: &str| format!("{}.{rest}", layer_name(&view));
         let mut light = Light {
             mean: layer(&name("mean")).ok_or_else(broken)?,
             variance_of_mean: layer(&name("variance")).ok_or_else(broken)?,
@@ -74,7 +77,7 @@ pub fn load(path: &Path, scene: &str, description: &SceneDescription) -> Result<
         if !is_sound(&light) {
             return Err(broken());
         }
-        by_bounces.insert(bounces, light);
+        views.insert(view, light);
     }
     let provenance = file
         .metadata
@@ -82,12 +85,23 @@ pub fn load(path: &Path, scene: &str, description: &SceneDescription) -> Result<
         .filter_map(|(key, value)| Some((key.strip_prefix(PROVENANCE)?.to_owned(), value.clone())))
         .filter(|(key, _)| key != "scene_hash")
         .collect();
-    Ok(Reference { scene_hash, by_bounces, provenance })
+    Ok(Reference { scene_hash, views, provenance })
 }
 
-/// The number in `bounces8.mean.R`.
-fn bounces_of(channel: &str) -> Option<u32> {
-    channel.strip_prefix("bounces")?.strip_suffix(".mean.R")?.parse().ok()
+/// `bounces8`, or `bounces8.hits-off`.
+fn layer_name(view: &View) -> String {
+    let hits = if view.hits == Hits::Off { HITS_OFF } else { "" };
+    format!("bounces{}{hits}", view.max_bounces)
+}
+
+/// What `bounces8.mean.R` or `bounces8.hits-off.mean.R` shows.
+fn view_of(channel: &str) -> Option<View> {
+    let name = channel.strip_prefix("bounces")?.strip_suffix(".mean.R")?;
+    let (bounces, hits) = match name.strip_suffix(HITS_OFF) {
+        Some(bounces) => (bounces, Hits::Off),
+        None => (name, Hits::On),
+    };
+    Some(View { max_bounces: bounces.parse().ok()?, hits })
 }
 
 fn is_sound(light: &Light) -> bool {
@@ -138,7 +152,11 @@ mod tests {
         };
         Reference {
             scene_hash: scene(40.0).hash(),
-            by_bounces: BTreeMap::from([(1, light(1.0)), (8, light(8.0))]),
+            views: BTreeMap::from([
+                (View { max_bounces: 1, hits: Hits::On }, light(1.0)),
+                (View { max_bounces: 8, hits: Hits::Off }, light(4.0)),
+                (View { max_bounces: 8, hits: Hits::On }, light(8.0)),
+            ]),
             provenance: BTreeMap::from([("seed".to_owned(), "7".to_owned())]),
         }
     }

@@ -7,12 +7,13 @@ use arty::integrator::{Settings, Technique};
 use arty::math::Rgb;
 use arty::sampler::batch_seed;
 use arty::scene::SceneDescription;
-use host::protocol::RenderJob;
+use host::protocol::{RenderJob, Switches};
 
 use super::{Light, Moments, Reference, SIZE};
 use crate::build::HandInProgram;
 use crate::error::{Error, Result};
 use crate::host_process::HostProcess;
+use crate::rubric::{Hits, View};
 
 /// How many samples a reference takes.
 #[derive(Clone, Copy, Debug)]
@@ -31,11 +32,11 @@ impl Default for Effort {
     }
 }
 
-/// Which images of a scene are needed: by the largest number of bounces, the techniques.
-pub type Wanted = BTreeMap<u32, Vec<Technique>>;
+/// Which images of a scene are needed, and with which techniques they are compared.
+pub type Wanted = BTreeMap<View, Vec<Technique>>;
 
 /// Renders the reference of one scene with the solution: means by multiple importance sampling, which sees
-/// everything that any technique sees.
+/// everything that any technique sees. Where lights that are hit emit nothing, by next event estimation.
 pub fn make(
     solution: &HandInProgram,
     description: &SceneDescription,
@@ -44,9 +45,13 @@ pub fn make(
     seed: u64,
 ) -> Result<Reference> {
     let mut renderer = Renderer::start(solution, description)?;
-    let mut by_bounces = BTreeMap::new();
-    for (&max_bounces, techniques) in wanted {
-        let settings = Settings { technique: Technique::Mis, max_bounces };
+    let mut views = BTreeMap::new();
+    for (&view, techniques) in wanted {
+        let max_bounces = view.max_bounces;
+        let hits_off = view.hits == Hits::Off;
+        renderer.switches = Switches { hits_off, ..Switches::default() };
+        let technique = if hits_off { Technique::Nee } else { Technique::Mis };
+        let settings = Settings { technique, max_bounces };
         let batches = renderer.render(SIZE, settings, effort.batches, effort.samples, seed)?;
         let (mean, variance) = mean_and_variance(&batches);
         let count = f64::from(effort.batches);
@@ -58,7 +63,7 @@ pub fn make(
             let samples = renderer.render(SIZE, settings, effort.single_samples, 1, seed ^ 1)?;
             light.techniques.insert(technique.name(), moments(&samples));
         }
-        by_bounces.insert(max_bounces, light);
+        views.insert(view, light);
     }
     let samples = u64::from(effort.batches) * effort.samples;
     let provenance = [
@@ -69,7 +74,7 @@ pub fn make(
         ("seed", seed.to_string()),
     ];
     let provenance = provenance.into_iter().map(|(key, value)| (key.to_owned(), value)).collect();
-    Ok(Reference { scene_hash: description.hash(), by_bounces, provenance })
+    Ok(Reference { scene_hash: description.hash(), views, provenance })
 }
 
 /// Samples of each pixel that one batch of a picture takes at most.
@@ -98,6 +103,7 @@ pub fn picture(
 struct Renderer {
     process: HostProcess,
     scene: u32,
+    switches: Switches,
 }
 
 impl Renderer {
@@ -105,7 +111,7 @@ impl Renderer {
         let mut process = HostProcess::start(program, rayon::current_num_threads())?;
         let scene =
             process.load(description)?.map_err(|fault| Error::Harness(format!("the solution: {fault}")))?;
-        Ok(Self { process, scene })
+        Ok(Self { process, scene, switches: Switches::default() })
     }
 
     /// In pieces that stay well within the time that a job may take.
@@ -130,6 +136,7 @@ impl Renderer {
                 seeds: seeds.to_vec(),
                 first_sample: 0,
                 samples,
+                switches: self.switches,
             };
             let rendered = self
                 .process

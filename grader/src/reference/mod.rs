@@ -1,6 +1,7 @@
 //! Reference images: what scenes look like, and how noisy correct estimators are in them.
 //!
-//! A reference is an EXR of the size that is judged. For each limit on the number of bounces it holds, per pixel
+//! A reference is an EXR of the size that is judged. For each limit on the number of bounces (and once more
+//! for next event estimation alone, where that is checked) it holds, per pixel
 //! and channel, the mean and the variance of that mean, and for each technique the relative deviation and the
 //! skewness of one sample. Its metadata say which scene it shows, by the hash of the scene's content: a reference
 //! whose scene has changed is refused.
@@ -12,6 +13,7 @@ use std::collections::BTreeMap;
 
 use arty::integrator::Technique;
 
+use crate::rubric::View;
 use crate::statistics::bias::Expected;
 
 pub use file::{load, save};
@@ -25,8 +27,8 @@ pub const SIZE: (u32, u32) = (16, 16);
 pub struct Reference {
     /// The hash of the scene's content.
     pub scene_hash: String,
-    /// By the largest number of bounces.
-    pub by_bounces: BTreeMap<u32, Light>,
+    /// By which light is shown.
+    pub views: BTreeMap<View, Light>,
     /// How it was made, for the reader of the file.
     pub provenance: BTreeMap<String, String>,
 }

@@ -9,6 +9,7 @@ use arty::integrator::Technique;
 use serde::{Deserialize, Serialize};
 
 use crate::build::BuildFailure;
+use crate::checks::Weights;
 use crate::error::{Error, Result};
 use crate::rubric::CheckKind;
 
@@ -124,6 +125,9 @@ pub struct CheckResult {
     pub non_finite: u64,
     /// Samples that were negative.
     pub negative: u64,
+    /// What was found about the weights, where they were looked at.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weights: Option<Weights>,
     /// The command that repeats it.
     pub repeat: String,
 }
@@ -152,6 +156,8 @@ pub enum Reason {
     None,
     /// The mean is wrong.
     Bias,
+    /// The weights of multiple importance sampling are wrong.
+    Weights,
     /// Too noisy.
     Noise,
     /// NaN, infinite or negative samples.

@@ -7,4 +7,5 @@
 pub mod batches;
 pub mod bias;
 pub mod regions;
+pub mod regression;
 pub mod sequential;

@@ -7,15 +7,25 @@ use crate::sampler::Sampler;
 /// One of the models that a BSDF is put together from. `eval` and `pdf` expect a `wi` above both horizons.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Lobe {
-    Diffuse { albedo: Rgb },
+    Diffuse {
+        albedo: Rgb,
+    },
     Phong(Phong),
-    Mirror { reflectance: Rgb },
+    Mirror {
+        reflectance: Rgb,
+    },
     Glass(Glass),
+    #[cfg(feature = "probe")]
+    Scripted(crate::probe::ScriptedLobe),
 }
 
 impl Lobe {
     #[inline]
     pub(super) fn is_delta(&self) -> bool {
+        #[cfg(feature = "probe")]
+        if let Self::Scripted(script) = self {
+            return script.is_delta;
+        }
         matches!(self, Self::Mirror { .. } | Self::Glass(_))
     }
 
@@ -25,6 +35,8 @@ impl Lobe {
             Self::Diffuse { albedo } => diffuse::eval(*albedo),
             Self::Phong(phong) => phong.eval(geometry, wi),
             Self::Mirror { .. } | Self::Glass(_) => Rgb::BLACK,
+            #[cfg(feature = "probe")]
+            Self::Scripted(script) => script.eval(),
         }
     }
 
@@ -34,6 +46,8 @@ impl Lobe {
             Self::Diffuse { .. } => diffuse::pdf(geometry, wi),
             Self::Phong(phong) => phong.pdf(geometry, wi),
             Self::Mirror { .. } | Self::Glass(_) => 0.0,
+            #[cfg(feature = "probe")]
+            Self::Scripted(script) => script.pdf(),
         }
     }
 
@@ -44,6 +58,8 @@ impl Lobe {
             Self::Diffuse { .. } => Some(diffuse::sample(geometry, sampler)),
             Self::Phong(phong) => Some(phong.sample(geometry, sampler)),
             Self::Mirror { .. } | Self::Glass(_) => None,
+            #[cfg(feature = "probe")]
+            Self::Scripted(script) => (!script.is_delta).then_some(script.wi),
         }
     }
 
@@ -54,6 +70,8 @@ impl Lobe {
             Self::Diffuse { .. } | Self::Phong(_) => None,
             Self::Mirror { reflectance } => mirror::sample(geometry, *reflectance),
             Self::Glass(glass) => glass.sample(geometry, sampler),
+            #[cfg(feature = "probe")]
+            Self::Scripted(script) => script.sample_delta(geometry.normal),
         }
     }
 }

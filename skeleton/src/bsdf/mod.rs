@@ -150,6 +150,8 @@ impl Bsdf {
     /// path ends there, with no correction to be made.
     #[inline]
     pub fn sample(&self, sampler: &mut Sampler) -> Option<BsdfSample> {
+        #[cfg(feature = "probe")]
+        crate::probe::count(|counts| counts.bsdf_samples += 1);
         match self.only_diffuse() {
             Some(_) => self.sample_towards(diffuse::sample(&self.geometry, sampler)),
             None => self.sample_lobes(sampler),

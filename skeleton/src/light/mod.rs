@@ -5,6 +5,8 @@
 //! them with those of directions is up to the caller.
 
 mod point;
+#[cfg(feature = "probe")]
+mod scripted;
 mod spot;
 mod triangle;
 
@@ -21,6 +23,8 @@ pub(crate) use triangle::TriangleLight;
 pub struct Light {
     index: usize,
     shape: Shape,
+    #[cfg(feature = "probe")]
+    script: Option<crate::probe::ScriptedLight>,
 }
 
 #[derive(Clone, Debug)]
@@ -59,7 +63,12 @@ pub struct Emission {
 impl Light {
     #[inline]
     pub(crate) fn new(index: usize, shape: Shape) -> Self {
-        Self { index, shape }
+        Self {
+            index,
+            shape,
+            #[cfg(feature = "probe")]
+            script: None,
+        }
     }
 
     /// The same light in another place of the list.
@@ -74,6 +83,10 @@ impl Light {
     /// see [`Scene::occluded`](crate::scene::Scene::occluded).
     #[inline]
     pub fn sample_direct(&self, from: Vec3, sampler: &mut Sampler) -> Option<DirectSample> {
+        #[cfg(feature = "probe")]
+        if let Some(scripted) = self.probe_sample(from) {
+            return scripted;
+        }
         match &self.shape {
             Shape::Point(light) => light.sample_direct(from),
             Shape::Spot(light) => light.sample_direct(from),
@@ -86,10 +99,13 @@ impl Light {
     /// To be called with a hit that [`Hit::light`] says is on this light; only lights with an area are ever hit.
     #[inline]
     pub fn emission(&self, hit: &Hit<'_>) -> Emission {
-        match &self.shape {
+        let emission = match &self.shape {
             Shape::Point(_) | Shape::Spot(_) => Emission { radiance: Rgb::BLACK, pdf_area: 1.0, cos: 1.0 },
             Shape::Triangle(light) => light.emission(hit.wo),
-        }
+        };
+        #[cfg(feature = "probe")]
+        let emission = self.probe_emission(hit, emission);
+        emission
     }
 
     /// True if the light has a surface, so that a path can hit it by chance.

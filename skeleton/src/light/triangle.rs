@@ -11,9 +11,9 @@ use crate::sampler::Sampler;
 pub(crate) struct TriangleLight {
     vertices: [Vec3; 3],
     /// Unit normal of the front.
-    normal: Vec3,
+    pub(super) normal: Vec3,
     area: f32,
-    radiance: Rgb,
+    pub(super) radiance: Rgb,
 }
 
 impl TriangleLight {

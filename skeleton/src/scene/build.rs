@@ -24,6 +24,8 @@ impl Scene {
             diffuse_map: material.diffuse_map,
             // A lobe that reflects nothing would only take samples away from the other one.
             specular: if material.specular.is_black() { Specular::None } else { material.specular },
+            #[cfg(feature = "probe")]
+            script: None,
         }));
         for mesh in &description.meshes {
             for triangle in &mesh.triangles {
@@ -66,6 +68,8 @@ impl Builder {
                         diffuse: Rgb::BLACK,
                         diffuse_map: None,
                         specular: Specular::None,
+                        #[cfg(feature = "probe")]
+                        script: None,
                     });
                     self.first_material = 1;
                 }
@@ -143,6 +147,8 @@ impl Builder {
             defaults: description.defaults,
             features,
             warnings,
+            #[cfg(feature = "probe")]
+            switches: Default::default(),
         }
     }
 

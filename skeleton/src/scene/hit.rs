@@ -18,7 +18,7 @@ pub struct Hit<'a> {
     pub geometric_normal: Vec3,
     /// The direction back to where the ray came from: a unit vector, away from the surface.
     pub wo: Vec3,
-    scene: &'a Scene,
+    pub(super) scene: &'a Scene,
     triangle: &'a Triangle,
     barycentrics: [f32; 2],
     /// True if the ray came from the front.
@@ -75,6 +75,10 @@ impl<'a> Hit<'a> {
         let geometry =
             LocalGeometry { normal: self.normal, geometric_normal: self.geometric_normal, wo: self.wo };
         let surface = self.surface();
+        #[cfg(feature = "probe")]
+        if let Some(script) = surface.script {
+            return Bsdf::single(geometry, Lobe::Scripted(script.seen_from(self.point)));
+        }
         match surface.specular {
             Specular::None => Bsdf::single(geometry, Lobe::Diffuse { albedo: self.diffuse_albedo() }),
             _ => self.specular_bsdf(geometry, surface),

@@ -8,6 +8,8 @@ mod features;
 #[cfg(feature = "files")]
 pub mod file;
 mod hit;
+#[cfg(feature = "probe")]
+mod scripted;
 mod texture;
 
 use crate::accel::Accel;
@@ -34,6 +36,8 @@ pub struct Scene {
     defaults: Defaults,
     features: Features,
     warnings: Vec<String>,
+    #[cfg(feature = "probe")]
+    switches: crate::probe::Switches,
 }
 
 /// What is needed of a triangle once it is hit.
@@ -64,12 +68,16 @@ struct Surface {
     diffuse: Rgb,
     diffuse_map: Option<u32>,
     specular: Specular,
+    #[cfg(feature = "probe")]
+    script: Option<crate::probe::ScriptedBsdf>,
 }
 
 impl Scene {
     /// The nearest surface that the ray hits.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit<'_>> {
+        #[cfg(feature = "probe")]
+        crate::probe::count(|counts| counts.rays += 1);
         let hit = self.accel.intersect(ray.origin, ray.direction, f32::INFINITY)?;
         Some(Hit::new(self, ray, hit))
     }
@@ -80,6 +88,10 @@ impl Scene {
     /// offsets are needed. Everything else does, glass too.
     #[inline]
     pub fn occluded(&self, hit: &Hit<'_>, point: Vec3) -> bool {
+        #[cfg(feature = "probe")]
+        if self.probe_shadow_ray() {
+            return true;
+        }
         self.accel.occluded(hit.leave_towards(point - hit.point), point)
     }
 

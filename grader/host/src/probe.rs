@@ -1,0 +1,54 @@
+//! Following paths through scripted scenes.
+
+use arty::integrator::Integrator;
+use arty::math::Rgb;
+use arty::probe::{self, take_counts};
+use arty::ray::Ray;
+use arty::sampler::Sampler;
+use arty::scene::Scene;
+
+use crate::protocol::{ProbeJob, ProbedPath, ScriptedScene};
+use crate::serve::Constructor;
+
+/// All paths of a job, scene by scene.
+pub(crate) fn all(constructor: Constructor, job: &ProbeJob) -> Vec<Vec<ProbedPath>> {
+    let integrator = constructor(job.settings);
+    job.scenes
+        .iter()
+        .map(|scripted| {
+            let scene = build(scripted);
+            let ray = Ray::new(scripted.origin, scripted.direction);
+            (0..job.samples).map(|sample| path(&*integrator, &scene, ray, job.seed, sample)).collect()
+        })
+        .collect()
+}
+
+fn path(integrator: &dyn Integrator, scene: &Scene, ray: Ray, seed: u64, sample: u64) -> ProbedPath {
+    take_counts();
+    let radiance = integrator.radiance(scene, ray, &mut Sampler::new(seed, (0, 0), sample)).to_array();
+    let probe::Counts { rays, shadow_rays, light_samples, bsdf_samples } = take_counts();
+    ProbedPath { radiance, rays, shadow_rays, light_samples, bsdf_samples }
+}
+
+fn build(scripted: &ScriptedScene) -> Scene {
+    let mut scene = Scene::new(&scripted.scene);
+    let bsdfs: Vec<_> = scripted
+        .bsdfs
+        .iter()
+        .map(|bsdf| {
+            bsdf.map(|it| probe::ScriptedBsdf {
+                target: it.target,
+                f: Rgb::gray(it.f),
+                pdf: it.pdf,
+                is_delta: it.is_delta,
+            })
+        })
+        .collect();
+    let lights: Vec<_> = scripted
+        .lights
+        .iter()
+        .map(|light| light.map(|it| probe::ScriptedLight { point: it.point, pdf_area: it.pdf_area }))
+        .collect();
+    scene.set_script(&bsdfs, &lights);
+    scene
+}

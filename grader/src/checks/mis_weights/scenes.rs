@@ -1,0 +1,294 @@
+//! Scenes in which one weight can be read off.
+//!
+//! Around the normal of the last vertex stand N equal triangle lights. On each lie two points, mirrored about the
+//! plane through that normal and the light's middle: so both have the same distance and the same cosines. One is where
+//! light samples go, the other where BSDF samples go. A small black triangle stands in the way to the one or the other.
+//! All of this is true geometry; only densities and the value of the BSDF are scripted.
+
+use std::f32::consts::TAU;
+
+use arty::math::{Frame, Rgb, Vec3, direction};
+use arty::ray::Ray;
+use arty::sampler::Sampler;
+use arty::scene::{
+    CameraDescription, Defaults, LightDescription, Material, Mesh, MeshTriangle, Scene, SceneDescription,
+    Specular,
+};
+use host::protocol::{ScriptedBsdf, ScriptedLight, ScriptedScene};
+
+/// What a configuration is drawn from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plan {
+    /// Vertices of the path before the light.
+    pub(super) vertices: usize,
+    /// ln of the range of densities per solid angle, on either side of 1.
+    pub(super) densities: f32,
+    /// ln of the range of distances, on either side of 1.
+    pub(super) distances: f32,
+    /// The least cosine.
+    pub(super) least_cos: f32,
+}
+
+/// Two scenes that differ in which way to the light is open.
+#[derive(Clone, Debug)]
+pub(super) struct Configuration {
+    /// Only light samples arrive.
+    pub(super) light_side: ScriptedScene,
+    /// Only the BSDF sample of the last vertex arrives.
+    pub(super) bsdf_side: ScriptedScene,
+    /// Density of the light sample per solid angle, with the probability of picking the light.
+    pub(super) p_light: f64,
+    /// Density of the BSDF sample per solid angle.
+    pub(super) p_bsdf: f64,
+    /// The distance from the last vertex to the light.
+    pub(super) distance: f64,
+    /// The cosine at the light.
+    pub(super) cos_light: f64,
+    /// How many lights there are.
+    pub(super) lights: usize,
+    /// 1 / density of the light sample per area.
+    pub(super) area: f64,
+    /// What the path would find at weight 1 with a density of 1: throughput · f · L · cos.
+    pub(super) contribution: f64,
+}
+
+/// How far, relative to the distance, light points are from the middle of their light.
+const HALF: f32 = 0.05;
+
+/// Draws a configuration; again until rays confirm that it is as it should be.
+pub(super) fn draw(plan: Plan, random: &mut Sampler) -> Configuration {
+    loop {
+        let configuration = attempt(plan, random);
+        let open = |scripted: &ScriptedScene| open_ways(scripted, plan.vertices);
+        let lights = configuration.lights;
+        if open(&configuration.light_side) == Some((lights, false))
+            && open(&configuration.bsdf_side) == Some((0, true))
+        {
+            return configuration;
+        }
+    }
+}
+
+fn attempt(plan: Plan, random: &mut Sampler) -> Configuration {
+    let mut between = |low: f32, high: f32| low + (high - low) * random.next_1d();
+    let lights = [1, 2, 5][between(0.0, 3.0) as usize % 3];
+    let d = between(-plan.distances, plan.distances).exp();
+    let cos_light = between(plan.least_cos.ln(), 0.0).exp();
+    let cos = between(plan.least_cos.ln(), 0.85f32.ln()).exp();
+    let (wanted_light, pdf) =
+        (between(-plan.densities, plan.densities).exp(), between(-plan.densities, plan.densities).exp());
+    let target_light = (between(0.0, lights as f32) as usize).min(lights - 1);
+    let (turn, tilt) = (between(0.0, TAU), if between(0.0, 1.0) < 0.5 { -1.0 } else { 1.0 });
+    let frame = Frame::around(unit(between(-1.0, 1.0), between(0.0, TAU)));
+    let centre = d * Vec3::new(between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0));
+    let to_world = |local: Vec3| centre + frame.to_world(d * local);
+
+    // In the frame of the last vertex, in units of d.
+    let stretch = (1.0 + HALF * HALF).sqrt();
+    let radius = 1.0 / stretch;
+    let (cos_polar, cos_tilt) = ((cos * stretch).min(1.0), (cos_light * stretch).min(1.0));
+    let (sin_polar, sin_tilt) = ((1.0 - cos_polar * cos_polar).sqrt(), (1.0 - cos_tilt * cos_tilt).sqrt());
+    let place = |light: usize| {
+        let (sin, cos) = (turn + TAU * light as f32 / lights as f32).sin_cos();
+        let outward = Vec3::new(sin_polar * cos, sin_polar * sin, cos_polar);
+        let downward = Vec3::new(cos_polar * cos, cos_polar * sin, -sin_polar);
+        let along = Vec3::new(-sin, cos, 0.0);
+        let normal = -outward * cos_tilt + downward * (sin_tilt * tilt);
+        (outward * radius, along * (HALF * radius), normal.cross(along) * (HALF * radius))
+    };
+    let corners = |light: usize| {
+        let (middle, along, across) = place(light);
+        [middle - 3.0 * along - across, middle + 3.0 * along - across, middle + 4.0 * across].map(to_world)
+    };
+    let sampled: Vec<Vec3> = (0..lights).map(|light| to_world(place(light).0 - place(light).1)).collect();
+    let target = to_world(place(target_light).0 + place(target_light).1);
+
+    // From the last vertex back to the camera.
+    let back = Vec3::new(0.1, 0.0, 0.995);
+    let (sin, cos_turn) = (1.7 * turn).sin_cos();
+    let aside = Vec3::new(0.8 * cos_turn, 0.8 * sin, 0.6);
+    let last = Vec3::new(-0.8 * sin, 0.8 * cos_turn, 0.6);
+    let mut way = vec![Vec3::ZERO];
+    for step in [back, aside, last] {
+        way.push(way[way.len() - 1] + 1.5 * step);
+    }
+    let way: Vec<Vec3> = way.into_iter().take(plan.vertices + 1).map(to_world).collect();
+
+    let normal_of_light = front_normal(corners(0));
+    let (to_light, distance) = exact_direction(way[0], sampled[0]);
+    let cos_light = -normal_of_light.dot(to_light);
+    let pdf_area = (f64::from(wanted_light) * lights as f64 * cos_light / (distance * distance)) as f32;
+    let p_light = f64::from(pdf_area) * distance * distance / (lights as f64 * cos_light);
+
+    let mut builder = Builder::default();
+    let mut bsdfs = Vec::new();
+    let mut contribution = 1.0;
+    for vertex in 0..plan.vertices {
+        let towards = if vertex == 0 { target } else { way[vertex - 1] };
+        let normal = if vertex == 0 {
+            frame.to_world(Vec3::Z)
+        } else {
+            (direction(way[vertex], towards).0 + direction(way[vertex], way[vertex + 1]).0).normalize()
+        };
+        let corners = builder.add_around(way[vertex], normal, 0.05 * d);
+        let cos = front_normal(corners).dot(exact_direction(way[vertex], towards).0).abs();
+        let (pdf, value) = if vertex == 0 {
+            // Then a path finds 1 in either way if its weights are those of the balance heuristic.
+            (pdf, (p_light + f64::from(pdf)) / cos)
+        } else {
+            let pdf = between(-plan.densities.min(4.0), plan.densities.min(4.0)).exp();
+            (pdf, f64::from(pdf) / cos)
+        };
+        let f = value as f32;
+        contribution *= f64::from(f) * cos / if vertex == 0 { 1.0 } else { f64::from(pdf) };
+        bsdfs.push(Some(ScriptedBsdf { target: towards, f, pdf, is_delta: false }));
+    }
+    bsdfs.push(None);
+    // No light sample of an earlier vertex arrives.
+    for &vertex in &way[1..plan.vertices] {
+        sampled.iter().for_each(|&point| builder.block(vertex, point, 0.01 * d));
+    }
+    let mut bsdf_side = builder.clone();
+    builder.block(way[0], target, 0.01 * d);
+    sampled.iter().for_each(|&point| bsdf_side.block(way[0], point, 0.01 * d));
+
+    let triangles: Vec<[Vec3; 3]> = (0..lights).map(corners).collect();
+    let scripts: Vec<_> = sampled.iter().map(|&point| Some(ScriptedLight { point, pdf_area })).collect();
+    let (origin, aim) = (way[plan.vertices], way[plan.vertices - 1]);
+    let scripted = |builder: Builder| ScriptedScene {
+        scene: builder.finish(plan.vertices, &triangles),
+        bsdfs: bsdfs.clone(),
+        lights: scripts.clone(),
+        origin,
+        direction: direction(origin, aim).0,
+    };
+    Configuration {
+        light_side: scripted(builder),
+        bsdf_side: scripted(bsdf_side),
+        p_light,
+        p_bsdf: f64::from(pdf),
+        distance,
+        cos_light,
+        lights,
+        area: 1.0 / f64::from(pdf_area),
+        contribution,
+    }
+}
+
+/// A unit vector with the given height and azimuth.
+fn unit(z: f32, azimuth: f32) -> Vec3 {
+    let radius = (1.0 - z * z).max(0.0).sqrt();
+    Vec3::new(radius * azimuth.cos(), radius * azimuth.sin(), z)
+}
+
+fn front_normal(corners: [Vec3; 3]) -> glam::DVec3 {
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    (b - a).cross(c - a).normalize()
+}
+
+fn exact_direction(from: Vec3, to: Vec3) -> (glam::DVec3, f64) {
+    let difference = to.as_dvec3() - from.as_dvec3();
+    (difference.normalize(), difference.length())
+}
+
+/// How many lights the last vertex sees the sampled point of, and whether its BSDF sample hits a light; `None` if the
+/// path does not get there, or if another vertex sees a light.
+fn open_ways(scripted: &ScriptedScene, vertices: usize) -> Option<(usize, bool)> {
+    let scene = Scene::new(&scripted.scene);
+    let mut ray = Ray::new(scripted.origin, scripted.direction);
+    for vertex in (0..vertices).rev() {
+        let hit = scene.intersect(&ray)?;
+        let target = scripted.bsdfs[vertex]?.target;
+        let seen =
+            scripted.lights.iter().flatten().filter(|light| !scene.occluded(&hit, light.point)).count();
+        ray = hit.spawn(direction(hit.point, target).0);
+        if vertex == 0 {
+            return Some((seen, scene.intersect(&ray).is_some_and(|next| next.light().is_some())));
+        }
+        let next = scene.intersect(&ray)?;
+        if seen > 0 || (next.point - target).length() > 1e-3 * (target - hit.point).length() {
+            return None;
+        }
+    }
+    None
+}
+
+/// Triangles: those of vertices first, each of its own material, then black ones.
+#[derive(Clone, Default)]
+struct Builder {
+    triangles: Vec<[Vec3; 3]>,
+}
+
+impl Builder {
+    /// An equilateral triangle around a point.
+    fn add_around(&mut self, point: Vec3, normal: Vec3, radius: f32) -> [Vec3; 3] {
+        let frame = Frame::around(normal);
+        let corner = |i: u8| point + frame.to_world(radius * unit(0.0, TAU * f32::from(i) / 3.0));
+        let corners = [corner(0), corner(1), corner(2)];
+        self.triangles.push(corners);
+        corners
+    }
+
+    /// Puts something black half way between two points.
+    fn block(&mut self, from: Vec3, to: Vec3, radius: f32) {
+        self.add_around(0.5 * (from + to), direction(from, to).0, radius);
+    }
+
+    fn finish(self, vertices: usize, lights: &[[Vec3; 3]]) -> SceneDescription {
+        let material = || Material {
+            name: "scripted".to_owned(),
+            diffuse: Rgb::BLACK,
+            diffuse_map: None,
+            specular: Specular::None,
+            emission: Rgb::BLACK,
+        };
+        let triangle = |index: usize| MeshTriangle {
+            positions: [3 * index as u32, 3 * index as u32 + 1, 3 * index as u32 + 2],
+            normals: None,
+            uvs: None,
+            material: index.min(vertices) as u32,
+        };
+        SceneDescription {
+            camera: CameraDescription { eye: Vec3::ZERO, center: Vec3::X, up: Vec3::Z, fov: 40.0 },
+            meshes: vec![Mesh {
+                positions: self.triangles.concat(),
+                triangles: (0..self.triangles.len()).map(triangle).collect(),
+                ..Mesh::default()
+            }],
+            materials: (0..=vertices).map(|_| material()).collect(),
+            textures: Vec::new(),
+            lights: lights
+                .iter()
+                .map(|&vertices| LightDescription::Triangle { vertices, radiance: Rgb::WHITE })
+                .collect(),
+            defaults: Defaults::default(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_of_configuration_is_found_and_mirrored_points_are_alike() {
+        let mut random = Sampler::new(1, (0, 0), 0);
+        for vertices in [1, 2, 3] {
+            for _ in 0..20 {
+                let plan = Plan { vertices, densities: 27.6, distances: 3.9, least_cos: 0.05 };
+                let configuration = draw(plan, &mut random);
+                let scripted = &configuration.bsdf_side;
+                let hit_point = scripted.bsdfs[0].expect("it is scripted").target;
+                let last = if vertices == 1 {
+                    let scene = Scene::new(&scripted.scene);
+                    scene.intersect(&Ray::new(scripted.origin, scripted.direction)).expect("it hits").point
+                } else {
+                    scripted.bsdfs[1].expect("it is scripted").target
+                };
+                let (_, distance) = exact_direction(last, hit_point);
+                assert!((distance / configuration.distance - 1.0).abs() < 1e-5);
+                assert!(configuration.cos_light > 0.04 && configuration.contribution > 0.0);
+            }
+        }
+    }
+}
