@@ -15,7 +15,7 @@ const MAX_SOURCE: u64 = 512 << 10;
 pub struct Submission {
     /// The path as it was given.
     pub path: PathBuf,
-    /// The text of its `render_pt.rs`.
+    /// The text of its `render_pt.rs`; what is not UTF-8 in it is replaced by U+FFFD.
     pub source: String,
 }
 
@@ -31,7 +31,8 @@ impl Submission {
             ));
         }
         let bytes = std::fs::read(&file).map_err(|error| Error::file(&file, error))?;
-        let source = String::from_utf8(bytes).map_err(|_| Error::file(&file, "not a text in UTF-8"))?;
+        // An umlaut in another encoding, most likely within a comment, must not cost all points.
+        let source = String::from_utf8_lossy(&bytes).into_owned();
         Ok(Self { path: path.to_owned(), source })
     }
 

@@ -11,14 +11,15 @@ pub struct Workspace {
 }
 
 impl Workspace {
-    /// The checkout that holds the current folder, or else the one that this program was built from.
+    /// The checkout that this program was built from, or, if that is gone, the one that holds the current folder: it
+    /// may be a student's.
     pub fn find() -> Result<Self> {
         let current =
             std::env::current_dir().map_err(|error| Error::Harness(format!("no current folder: {error}")))?;
         let built_from = Path::new(env!("CARGO_MANIFEST_DIR"));
-        current
+        built_from
             .ancestors()
-            .chain(built_from.ancestors())
+            .chain(current.ancestors())
             .find(|folder| folder.join("skeleton/Cargo.toml").is_file() && folder.join("scenes").is_dir())
             .map(|root| Self { root: root.to_owned() })
             .ok_or_else(|| {

@@ -1,7 +1,7 @@
 //! One call of rustc: the hand-in, the fixed program around it, the framework.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
@@ -32,8 +32,38 @@ pub struct BuildFailure {
     pub line: Option<u32>,
 }
 
+/// How long rustc may take. Constants can be computed at compile time for as long as one likes.
+const COMPILE_TIME: Duration = Duration::from_secs(30);
+
+/// A hand-in that compiles wherever compiling works at all.
+const EMPTY_HAND_IN: &str = "use arty::prelude::*;
+pub struct PathTracer;
+impl PathTracer { pub fn new(_: Settings) -> Self { Self } }
+impl Integrator for PathTracer {
+    fn radiance(&self, _: &Scene, _: Ray, _: &mut Sampler) -> Rgb { Rgb::BLACK }
+}
+";
+
 /// Compiles the source of a hand-in. The outer error is the harness's, the inner one the hand-in's.
 pub fn compile(
+    framework: &Framework,
+    source: &str,
+) -> Result<std::result::Result<HandInProgram, BuildFailure>> {
+    let failure = match compile_once(framework, source)? {
+        Ok(program) => return Ok(Ok(program)),
+        Err(failure) => failure,
+    };
+    // No line of the hand-in is to blame: is it the machine? A missing linker, a full disk?
+    if failure.line.is_none() {
+        if let Err(machine) = compile_once(framework, EMPTY_HAND_IN)? {
+            let messages = machine.messages;
+            return Err(Error::Harness(format!("not even an empty hand-in compiles here:\n{messages}")));
+        }
+    }
+    Ok(Err(failure))
+}
+
+fn compile_once(
     framework: &Framework,
     source: &str,
 ) -> Result<std::result::Result<HandInProgram, BuildFailure>> {
@@ -47,15 +77,41 @@ pub fn compile(
             .map_err(|error| trouble("the hand-in cannot be copied", error))?;
     }
     let start = Instant::now();
-    let output =
-        call(framework, folder.path()).output().map_err(|error| trouble("rustc could not be run", error))?;
+    let status =
+        run_in_time(framework, folder.path()).map_err(|error| trouble("rustc could not be run", error))?;
     let compile_time = start.elapsed();
-    if output.status.success() {
+    let Some(status) = status else {
+        let messages = format!("rustc did not finish within {} s\n", COMPILE_TIME.as_secs());
+        return Ok(Err(BuildFailure { messages, line: None }));
+    };
+    if status.success() {
         let executable = folder.path().join(executable_name());
         return Ok(Ok(HandInProgram { executable, compile_time, _folder: folder }));
     }
-    let stderr = String::from_utf8_lossy(&output.stderr);
-    Ok(Err(build_failure(&stderr, &output.status.to_string())))
+    let messages = std::fs::read(folder.path().join(MESSAGES))
+        .map_err(|error| trouble("rustc's messages are gone", error))?;
+    Ok(Err(build_failure(&String::from_utf8_lossy(&messages), &status.to_string())))
+}
+
+/// The file that rustc's messages go to: unlike a pipe it never fills up.
+const MESSAGES: &str = "messages.json";
+
+/// Runs rustc; `None` if it had to be ended.
+fn run_in_time(framework: &Framework, folder: &Path) -> std::io::Result<Option<ExitStatus>> {
+    let messages = std::fs::File::create(folder.join(MESSAGES))?;
+    let mut rustc = call(framework, folder).stderr(messages).spawn()?;
+    let deadline = Instant::now() + COMPILE_TIME;
+    loop {
+        if let Some(status) = rustc.try_wait()? {
+            return Ok(Some(status));
+        }
+        if Instant::now() >= deadline {
+            rustc.kill()?;
+            rustc.wait()?;
+            return Ok(None);
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    }
 }
 
 fn executable_name() -> String {

@@ -74,6 +74,19 @@ impl Framework {
     }
 }
 
+impl Framework {
+    /// BLAKE3 over the compiled libraries.
+    pub fn hash(&self) -> Result<String> {
+        let mut hasher = blake3::Hasher::new();
+        for library in [&self.arty, &self.host] {
+            let bytes = std::fs::read(library)
+                .map_err(|error| Error::Harness(format!("{}: {error}", library.display())))?;
+            hasher.update(&bytes);
+        }
+        Ok(hasher.finalize().to_hex().to_string())
+    }
+}
+
 /// The first line of `rustc --version`.
 fn toolchain() -> Result<String> {
     let output = rustc()

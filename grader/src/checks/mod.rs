@@ -21,7 +21,7 @@ use crate::report::{CheckResult, Reason, Verdict};
 use crate::rubric::{CheckKind, CheckSpec, Hits, Task};
 use crate::statistics::bias::Expected;
 use crate::statistics::regions::{pyramid, weighted_image};
-use crate::statistics::sequential::{CONFIRMATION_LEVEL, Decision, Demand, Judgement, Question, judge};
+use crate::statistics::sequential::{Decision, Demand, Judgement, Question, judge};
 
 /// A scene with all that checks need to know of it.
 pub struct JudgedScene {
@@ -82,6 +82,15 @@ impl Bench<'_> {
         Ok(result)
     }
 
+    /// The result of a check that is not run, since the hand-in has already used up its time in another.
+    pub fn skip(&self, task: &Task, spec: &CheckSpec) -> CheckResult {
+        let mut result = self.begin(task, spec);
+        result.verdict = Verdict::Fail;
+        result.reason = Reason::Timeout;
+        result.explanation = "not run, because an earlier check did not finish in time".to_owned();
+        result
+    }
+
     /// The result of a check before anything is known.
     fn begin(&self, task: &Task, spec: &CheckSpec) -> CheckResult {
         CheckResult {
@@ -131,12 +140,17 @@ impl Bench<'_> {
         let judgement = match process.load(&judged.description)? {
             Err(fault) => Err(Stop::HandIn(fault)),
             Ok(scene) => judge(&question, |demand| {
-                let job = render_job(scene, spec, demand);
-                let rendered = process.render(&job).map_err(Stop::Harness)?.map_err(Stop::HandIn)?;
-                numerics.non_finite += rendered.non_finite;
-                numerics.negative += rendered.negative;
-                numerics.first.extend(rendered.first_anomalies);
-                Ok(rendered.batches)
+                let mut batches = Vec::with_capacity(demand.seeds.len());
+                let per_job = batches_per_job(demand);
+                for seeds in demand.seeds.chunks(per_job) {
+                    let job = render_job(scene, spec, demand, seeds);
+                    let rendered = process.render(&job).map_err(Stop::Harness)?.map_err(Stop::HandIn)?;
+                    numerics.non_finite += rendered.non_finite;
+                    numerics.negative += rendered.negative;
+                    numerics.first.extend(rendered.first_anomalies);
+                    batches.extend(rendered.batches);
+                }
+                Ok(batches)
             }),
         };
         let mut result = self.begin(task, spec);
@@ -195,13 +209,21 @@ struct Numerics {
     first: Vec<AnomalousSample>,
 }
 
-fn render_job(scene: u32, spec: &CheckSpec, demand: &Demand) -> RenderJob {
+/// Samples that one job asks for at most, so that a job's time limit is never a matter of how many were wanted.
+const SAMPLES_PER_JOB: u64 = 1 << 20;
+
+fn batches_per_job(demand: &Demand) -> usize {
+    let per_batch = demand.samples * u64::from(SIZE.0 * SIZE.1);
+    usize::try_from(SAMPLES_PER_JOB / per_batch.max(1)).unwrap_or(usize::MAX).max(1)
+}
+
+fn render_job(scene: u32, spec: &CheckSpec, demand: &Demand, seeds: &[u64]) -> RenderJob {
     RenderJob {
         scene,
         settings: arty::integrator::Settings { technique: spec.technique, max_bounces: spec.max_bounces },
         width: SIZE.0,
         height: SIZE.1,
-        seeds: demand.seeds.clone(),
+        seeds: seeds.to_vec(),
         first_sample: demand.first_sample,
         samples: demand.samples,
         switches: Switches { hits_off: spec.hits == Hits::Off, ..Switches::default() },
@@ -224,16 +246,19 @@ fn describe(result: &mut CheckResult, judgement: &Judgement, spec: &CheckSpec) {
             Verdict::Fail,
             Reason::Bias,
             format!(
-                "{} ({}); by chance that happens less than once in {:.0} times",
+                "{} ({}), confirmed with fresh random numbers",
                 if judgement.is_pattern { describe_pattern(effect) } else { describe_effect(effect) },
-                judgement.region,
-                1.0 / CONFIRMATION_LEVEL
+                judgement.region
             ),
         ),
         Decision::Unbiased => (
             Verdict::Pass,
             Reason::None,
-            format!("the mean is right to within {:.1} %", 100.0 * (effect.abs() + margin)),
+            format!(
+                "the mean is right to within {:.2} % ({:.0} % allowed)",
+                100.0 * (effect.abs() + margin),
+                100.0 * spec.tolerance
+            ),
         ),
         Decision::Unclear => (
             Verdict::Inconclusive,

@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use crate::error::Result;
+use arty::image::check_writable;
+
+use crate::error::{Error, Result};
 use crate::grade::{Options, grade};
 use crate::report::{print_check, print_summary};
 use crate::submission::Submission;
@@ -27,10 +29,10 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "CHECK|SCENE|TASK")]
     only: Vec<String>,
     /// Threads for the hand-in [default: one for each core]
-    #[arg(long, value_name = "N")]
-    jobs: Option<usize>,
-    /// Exit with status 1 if fewer points than this are earned
-    #[arg(long, value_name = "POINTS")]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    jobs: Option<u16>,
+    /// Exit with status 1 if fewer points than this are earned, of all automatic points
+    #[arg(long, value_name = "POINTS", conflicts_with = "only", value_parser = points)]
     fail_under: Option<f64>,
 }
 
@@ -38,24 +40,32 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let path = arguments.submission.clone().unwrap_or_else(|| workspace.student_file());
     let submission = Submission::read(&relative(path))?;
-    let threads = arguments.jobs.unwrap_or_else(rayon::current_num_threads).max(1);
+    let threads = arguments.jobs.map_or_else(rayon::current_num_threads, usize::from);
     let options = Options {
         assignment: arguments.assignment.clone(),
         seed: arguments.seed,
         threads,
         only: arguments.only.clone(),
     };
+    let file = arguments.out.join("report.json");
+    std::fs::create_dir_all(&arguments.out).map_err(|error| Error::file(&arguments.out, error))?;
+    check_writable(&file)?;
     if !workspace.framework_target().exists() {
         eprintln!(
             "building the framework that hand-ins are linked against; this is done once, and takes a minute …"
         );
     }
     let report = grade(&workspace, &submission, &options, print_check)?;
+    report.save(&file)?;
     print_summary(&report);
-    let file = report.save(&arguments.out)?;
     eprintln!("report: {}", file.display());
     let too_few = arguments.fail_under.is_some_and(|least| report.points.earned < least);
     Ok(ExitCode::from(u8::from(too_few)))
+}
+
+fn points(text: &str) -> std::result::Result<f64, String> {
+    let points: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if points.is_finite() { Ok(points) } else { Err("not a number of points".to_owned()) }
 }
 
 /// The path as a person in the current folder would write it.

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::build::BuildFailure;
 use crate::checks::Weights;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::rubric::CheckKind;
 
 pub use terminal::{print_check, print_summary};
@@ -228,11 +228,8 @@ pub struct Sandbox {
 }
 
 impl Report {
-    /// Writes `report.json` into a folder, which is made if it is not there.
-    pub fn save(&self, folder: &Path) -> Result<std::path::PathBuf> {
-        std::fs::create_dir_all(folder).map_err(|error| Error::file(folder, error))?;
-        let path = folder.join("report.json");
-        arty::image::write_aside(&path, |writer| serde_json::to_writer_pretty(writer, self))?;
-        Ok(path)
+    /// Writes the report as JSON.
+    pub fn save(&self, path: &Path) -> Result<()> {
+        Ok(arty::image::write_aside(path, |writer| serde_json::to_writer_pretty(writer, self))?)
     }
 }

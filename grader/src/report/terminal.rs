@@ -1,5 +1,7 @@
 //! The report on a terminal.
 
+use std::io::{self, Write};
+
 use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
 use comfy_table::{Cell, CellAlignment, Color, ContentArrangement, Table};
 
@@ -7,13 +9,18 @@ use super::{CheckResult, Report, TaskResult, Verdict};
 
 /// One line for a check, as soon as it has ended.
 pub fn print_check(check: &CheckResult) {
-    eprintln!("{:>12}  {}  {}", word(check.verdict), check.id, check.explanation);
+    let _ = writeln!(io::stderr(), "{:>12}  {}  {}", word(check.verdict), check.id, check.explanation);
 }
 
 /// The table of tasks and the checks that cost points.
 pub fn print_summary(report: &Report) {
+    // Nobody may be reading any more (`… | head`): the report is saved all the same.
+    let _ = write_summary(&mut std::io::stdout().lock(), report);
+}
+
+fn write_summary(out: &mut impl Write, report: &Report) -> io::Result<()> {
     if let Some(failure) = &report.submission.build_failure {
-        println!("The hand-in does not compile:\n\n{}", failure.messages);
+        writeln!(out, "The hand-in does not compile:\n\n{}", failure.messages)?;
     }
     let mut table = Table::new();
     table.load_style(UTF8_HORIZONTAL_ONLY).set_content_arrangement(ContentArrangement::Dynamic).set_header([
@@ -44,35 +51,37 @@ pub fn print_summary(report: &Report) {
             Cell::new(&task.reason),
         ]);
     }
-    println!("{table}");
-    println!(
+    writeln!(out, "{table}")?;
+    writeln!(
+        out,
         "{} of {} automatic points ({} more are marked by a person), {:.1} s",
         report.points.earned, report.points.automatic_max, report.points.manual_max, report.cost.total
-    );
+    )?;
     for task in &report.tasks {
-        print_failures(task, report);
+        write_failures(out, task, report)?;
     }
+    Ok(())
 }
 
 /// How many failed checks of a task are explained: with the first ones mended, the others often are.
 const EXPLAINED: usize = 3;
 
 /// What is wrong in a task, and the command that shows it again.
-fn print_failures(task: &TaskResult, report: &Report) {
+fn write_failures(out: &mut impl Write, task: &TaskResult, report: &Report) -> io::Result<()> {
     let failed: Vec<&CheckResult> = report
         .checks
         .iter()
         .filter(|check| check.task == task.id && check.verdict != Verdict::Pass)
         .collect();
-    let Some(first) = failed.first() else { return };
-    println!("\n{} {}", task.id, task.title);
+    let Some(first) = failed.first() else { return Ok(()) };
+    writeln!(out, "\n{} {}", task.id, task.title)?;
     for check in failed.iter().take(EXPLAINED) {
-        println!("  {}: {}\n    {}", word(check.verdict), check.id, check.explanation);
+        writeln!(out, "  {}: {}\n    {}", word(check.verdict), check.id, check.explanation)?;
     }
     if failed.len() > EXPLAINED {
-        println!("  … and {} more: see report.json", failed.len() - EXPLAINED);
+        writeln!(out, "  … and {} more: see report.json", failed.len() - EXPLAINED)?;
     }
-    println!("  again: {}", first.repeat);
+    writeln!(out, "  again: {}", first.repeat)
 }
 
 fn word(verdict: Verdict) -> &'static str {

@@ -40,6 +40,15 @@ impl Batches {
         self.samples * self.means.len() as u64
     }
 
+    /// The variance of one sample of a pixel's channel, as the batches show it: that of their means, times the number
+    /// of samples in each.
+    pub fn variance(&self, pixel: usize, channel: usize) -> f64 {
+        let count = self.means.len() as f64;
+        let mean = self.means.iter().map(|batch| batch[pixel][channel]).sum::<f64>() / count;
+        let squares: f64 = self.means.iter().map(|batch| (batch[pixel][channel] - mean).powi(2)).sum();
+        squares / (count - 1.0).max(1.0) * self.samples as f64
+    }
+
     /// For each batch a weighted sum over all pixels and channels.
     pub fn contrast<'a>(&'a self, weights: &'a [[f64; 3]]) -> impl Iterator<Item = f64> + 'a {
         self.means.iter().map(move |batch| {

@@ -18,6 +18,38 @@ pub struct Expected {
     pub third_moment: Vec<[f64; 3]>,
 }
 
+impl Expected {
+    /// The same means with at least the noise that the batches show, over the whole image.
+    ///
+    /// A program can be right and yet much noisier than the one that made the reference. Where its rare bright samples
+    /// have not come yet, neither its own spread nor the reference's deviation tells of them; other pixels do. So if
+    /// its variance, summed over all pixels relative to m² + m̄² (the pixel's mean and that of the image, so that
+    /// neither bright nor dark pixels decide alone), is κ > 1 times the reference's, all distributions are taken to be
+    /// √κ times as wide.
+    pub fn with_noise_of(&self, batches: &Batches) -> Self {
+        let count = 3.0 * self.mean.len().max(1) as f64;
+        let image_mean = self.mean.iter().flatten().sum::<f64>() / count;
+        let (mut own, mut reference) = (0.0, 0.0);
+        for (pixel, mean) in self.mean.iter().enumerate() {
+            for channel in 0..3 {
+                let scale = mean[channel].powi(2) + image_mean.powi(2);
+                if scale > 0.0 {
+                    own += batches.variance(pixel, channel) / scale;
+                    reference += self.sample_variance[pixel][channel] / scale;
+                }
+            }
+        }
+        let factor = if reference > 0.0 { (own / reference).max(1.0) } else { 1.0 };
+        let scaled =
+            |values: &[[f64; 3]], factor: f64| values.iter().map(|value| value.map(|v| v * factor)).collect();
+        Self {
+            sample_variance: scaled(&self.sample_variance, factor),
+            third_moment: scaled(&self.third_moment, factor.powf(1.5)),
+            ..self.clone()
+        }
+    }
+}
+
 /// Relative differences up to this are rounding errors of single precision, not bias.
 pub const TOLERATED: f64 = 1e-3;
 
@@ -33,7 +65,8 @@ pub struct Comparison {
     /// Degrees of freedom of the standard error.
     pub freedom: f64,
     /// False if a correct estimator is so skewed here that the mean of this many samples is not yet close to normal.
-    /// Then Chebyshev's inequality takes the place of Student's distribution: it holds for any that has a variance.
+    /// Then Chebyshev's inequality takes the place of Student's distribution: it holds for any whose variance is
+    /// known.
     pub normal: bool,
 }
 
@@ -69,8 +102,8 @@ impl Comparison {
             standard_error: ((spread / count).max(floor / samples) + reference_variance).sqrt(),
             scale,
             freedom: (count - 1.0).max(1.0),
-            // N ≥ 154 γ² makes the tails right at levels of about 1e-3.
-            normal: samples >= 154.0 * skewness * skewness,
+            // N ≥ 411 γ² makes the tails right at the level of the confirmation.
+            normal: samples >= 411.0 * skewness * skewness,
         }
     }
 

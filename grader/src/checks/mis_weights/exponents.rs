@@ -115,7 +115,9 @@ fn fault(side: &Side) -> Option<String> {
     let mut faults = Vec::new();
     match ratio {
         1 | 2 => {}
-        ..0 => faults.push("the densities are swapped: the weight falls as its own density rises".to_owned()),
+        _ if ratio < 0 => {
+            faults.push("the densities are swapped: the weight falls as its own density rises".to_owned())
+        }
         _ => faults.push(format!("the ratio of the densities has the exponent {ratio}")),
     }
     let sign = if ratio < 0 { -1 } else { 1 };
