@@ -45,7 +45,7 @@ fn a_grade_ends_with_0_whatever_the_points_unless_fewer_than_asked_for() {
     ] {
         assert!(!report[key].is_null(), "{key}");
     }
-    let too_few = grader(folder.path(), &["grade", &file, "--only=point_plane", "--fail-under=1"]);
+    let too_few = grader(folder.path(), &["grade", &file, "--fail-under=1"]);
     assert_eq!(too_few.status.code(), Some(1), "{}", stderr(&too_few));
 }
 
@@ -63,9 +63,54 @@ fn what_staff_or_student_typed_wrong_ends_with_2_and_one_clear_message() {
         (vec!["grade", &file, "--assignment=99"], "rubric.yml"),
         (vec!["reference", "nonsense"], "no check uses a scene `nonsense`"),
         (vec!["grade", "--seed=x"], "invalid value"),
+        (vec!["grade", &file, "--out", &file], "render_pt.rs"),
+        (vec!["grade", &file, "--only=point_plane", "--fail-under=1"], "cannot be used with"),
     ] {
         let output = grader(folder.path(), &arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
         assert!(stderr(&output).contains(expected), "{arguments:?}: {}", stderr(&output));
     }
+}
+
+#[test]
+#[cfg(unix)]
+fn a_closed_pipe_costs_nobody_the_report() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let script =
+        format!("'{}' grade '{}' --only=point_plane | true", env!("CARGO_BIN_EXE_grader"), student_file());
+    let mut shell = Command::new("bash");
+    let status = shell.args(["-o", "pipefail", "-c", &script]).current_dir(folder.path()).status();
+    assert_eq!(status.expect("bash starts").code(), Some(0));
+    assert!(folder.path().join("report/report.json").is_file());
+}
+
+#[test]
+#[cfg(unix)]
+fn a_machine_without_a_linker_is_not_the_hand_in_s_fault() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    // Only cargo and rustc are found.
+    let tools = folder.path().join("tools");
+    std::fs::create_dir(&tools).expect("it can be made");
+    for (tool, variable) in [("cargo", "CARGO"), ("rustc", "RUSTC")] {
+        let found = std::env::var(variable).unwrap_or_else(|_| which(tool));
+        std::os::unix::fs::symlink(found, tools.join(tool)).expect("it can be linked");
+    }
+    let warm = grader(folder.path(), &["grade", &student_file(), "--only=point_plane"]);
+    assert_eq!(warm.status.code(), Some(0), "the framework is built: {}", stderr(&warm));
+    let output = Command::new(env!("CARGO_BIN_EXE_grader"))
+        .args(["grade", &student_file(), "--only=point_plane"])
+        .current_dir(folder.path())
+        .env("PATH", &tools)
+        .output()
+        .expect("the program starts");
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    assert!(stderr(&output).contains("not even an empty hand-in compiles"), "{}", stderr(&output));
+}
+
+/// The first program of that name in the search path.
+#[cfg(unix)]
+fn which(tool: &str) -> String {
+    let path = std::env::var_os("PATH").expect("there is a search path");
+    let found = std::env::split_paths(&path).map(|folder| folder.join(tool)).find(|file| file.is_file());
+    found.expect("the tool is installed").display().to_string()
 }

@@ -54,11 +54,11 @@ pub fn compile(
         Err(failure) => failure,
     };
     // No line of the hand-in is to blame: is it the machine? A missing linker, a full disk?
-    if failure.line.is_none() {
-        if let Err(machine) = compile_once(framework, EMPTY_HAND_IN)? {
-            let messages = machine.messages;
-            return Err(Error::Harness(format!("not even an empty hand-in compiles here:\n{messages}")));
-        }
+    if failure.line.is_none()
+        && let Err(machine) = compile_once(framework, EMPTY_HAND_IN)?
+    {
+        let messages = machine.messages;
+        return Err(Error::Harness(format!("not even an empty hand-in compiles here:\n{messages}")));
     }
     Ok(Err(failure))
 }

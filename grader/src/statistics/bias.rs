@@ -31,8 +31,8 @@ impl Expected {
         let image_mean = self.mean.iter().flatten().sum::<f64>() / count;
         let (mut own, mut reference) = (0.0, 0.0);
         for (pixel, mean) in self.mean.iter().enumerate() {
-            for channel in 0..3 {
-                let scale = mean[channel].powi(2) + image_mean.powi(2);
+            for (channel, mean) in mean.iter().enumerate() {
+                let scale = mean.powi(2) + image_mean.powi(2);
                 if scale > 0.0 {
                     own += batches.variance(pixel, channel) / scale;
                     reference += self.sample_variance[pixel][channel] / scale;

@@ -91,4 +91,19 @@ pub(super) fn add_to(collection: &mut Collection) {
         lights: vec![Light::Point { position: dvec3(0.1, 1.45, 0.4), power: [36.0, 33.0, 28.0] }],
         max_bounces: 8,
     });
+    collection.scenes.push(SceneFile {
+        name: "three_points",
+        about: &[
+            "The simple box with three point lights of unequal colour and power: the one that is",
+            "picked has to be divided by the probability of picking it.",
+        ],
+        models: ["cornell_room", "cornell_blocks"].map(ModelUse::plain).into(),
+        camera: camera(),
+        lights: vec![
+            Light::Point { position: dvec3(-0.5, 1.5, 0.5), power: [30.0, 12.0, 8.0] },
+            Light::Point { position: dvec3(0.6, 1.4, 0.2), power: [6.0, 16.0, 7.0] },
+            Light::Point { position: dvec3(0.2, 1.0, 0.9), power: [2.0, 4.0, 10.0] },
+        ],
+        max_bounces: 8,
+    });
 }

@@ -3,6 +3,7 @@
 //! Statistical tests: 24 estimates at 1e-6 each; a correct program fails with a probability below 3e-5. Those that ask
 //! lights would see a bias of 1 %, those that hit them by chance one of 5 %, half of the time or more.
 
+#[path = "../../skeleton/tests/common/mod.rs"]
 mod common;
 
 use std::f64::consts::PI;
