@@ -11,12 +11,17 @@ pub struct Outcome {
     pub blamed: Vec<String>,
     /// What nobody expected: differences that the variant's notes do not explain, and notes that explain nothing.
     pub unexpected: Vec<String>,
+    /// False if there is no result to compare.
+    pub graded: bool,
 }
 
 impl Outcome {
     /// Compares.
     pub fn new(variant: &Variant, records: &[&Record]) -> Self {
-        let mut outcome = Self::default();
+        let mut outcome = Self { graded: !records.is_empty(), ..Self::default() };
+        if !outcome.graded {
+            return outcome;
+        }
         if let Some(messages) = records.iter().find_map(|record| record.build_failure.as_ref()) {
             outcome.unexpected.push(format!("it does not compile:\n{messages}"));
             return outcome;
@@ -55,6 +60,9 @@ impl Outcome {
 
     /// In a word or two.
     pub fn word(&self, kind: Kind) -> String {
+        if !self.graded {
+            return "not graded".to_owned();
+        }
         let mut words = Vec::new();
         if !self.missed.is_empty() {
             words.push(format!("missed in {}", self.missed.join(", ")));
@@ -111,6 +119,7 @@ mod tests {
             (vec![&record(0.0, 5.0)], vec![], "blamed in b", 1),
             (vec![&record(10.0, 0.0)], vec!["a", "b"], "missed in a; blamed in b", 0),
             (vec![&good], vec!["a"], "caught", 1),
+            (vec![], vec!["a"], "not graded", 0),
         ] {
             let outcome = Outcome::new(&variant(&missed), &records);
             assert_eq!((outcome.word(Kind::Wrong).as_str(), outcome.unexpected.len()), (word, unexpected));

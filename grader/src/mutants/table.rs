@@ -21,8 +21,8 @@ pub fn table(variants: &Variants, rubric: &Rubric, records: &[Vec<&Record>]) -> 
     for (kind, title) in [(Kind::Wrong, "Wrong variants"), (Kind::Right, "Right variants")] {
         let rows = || variants.list.iter().zip(records).filter(|(variant, _)| variant.kind == kind);
         let caught = rows().filter(|(variant, records)| {
-            let Outcome { missed, blamed, .. } = Outcome::new(variant, records);
-            missed.is_empty() && blamed.is_empty()
+            let Outcome { missed, blamed, graded, .. } = Outcome::new(variant, records);
+            graded && missed.is_empty() && blamed.is_empty()
         });
         let word = match kind {
             Kind::Wrong => "caught, and for the right tasks",
