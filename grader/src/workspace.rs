@@ -64,6 +64,16 @@ impl Workspace {
         self.root.join("assignments").join(name)
     }
 
+    /// The folder of the solution's variants, whose mistakes are known.
+    pub fn variants(&self) -> PathBuf {
+        self.root.join("grader/variants")
+    }
+
+    /// The table of what became of them.
+    pub fn kill_matrix(&self) -> PathBuf {
+        self.variants().join("kill-matrix.md")
+    }
+
     /// Where Cargo puts the framework that hand-ins are linked against, apart from all other builds.
     pub fn framework_target(&self) -> PathBuf {
         self.root.join("target/framework")

@@ -2,6 +2,7 @@
 
 mod figures;
 mod grade;
+mod mutants;
 mod reference;
 mod trusted;
 
@@ -23,16 +24,19 @@ enum Command {
     Grade(grade::Arguments),
     /// Render the figures of the sheet with the solution (for staff).
     Figures(figures::Arguments),
+    /// Grade wrong and right variants of the solution: what is caught, and what is not (for staff).
+    Mutants(mutants::Arguments),
     /// Render the references of scenes with the solution (for staff).
     Reference(reference::Arguments),
 }
 
 /// Runs the command line. The exit status is 0 if the command did its work, whatever the points; 1 for fewer points
-/// than `--fail-under`; 2 if the command line or an input is wrong; 3 if the grader itself failed.
+/// than `--fail-under`, or a variant that is not as expected; 2 if the command line or an input is wrong; 3 if the grader itself failed.
 pub fn run() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Grade(arguments) => grade::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
+        Command::Mutants(arguments) => mutants::run(&arguments),
         Command::Reference(arguments) => reference::run(&arguments),
     };
     outcome.unwrap_or_else(|error| {

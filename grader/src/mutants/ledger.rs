@@ -1,0 +1,144 @@
+//! Results of grading variants, kept so that nothing is computed twice.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::Variant;
+use crate::error::{Error, Result};
+use crate::grade::{Options, grade};
+use crate::report::{Report, Verdict};
+use crate::submission::Submission;
+use crate::workspace::Workspace;
+
+/// What one grade of one variant has found: a line of the ledger.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Record {
+    /// Hash of all that the result depends on, but for the seed.
+    pub key: String,
+    /// The variant's name.
+    pub variant: String,
+    /// The seed of the grade.
+    pub seed: u64,
+    /// For each automatic task the points earned and those it is worth.
+    pub tasks: BTreeMap<String, [f64; 2]>,
+    /// For each check, named by task and check, its verdict.
+    pub checks: BTreeMap<String, Verdict>,
+    /// What rustc said, if it does not compile.
+    pub build_failure: Option<String>,
+    /// How long compiling and running took.
+    pub seconds: f64,
+}
+
+/// A file of results, a JSON object a line.
+pub struct Ledger {
+    path: PathBuf,
+    records: Vec<Record>,
+    /// Hash of all that is the same for all variants.
+    base: blake3::Hash,
+}
+
+impl Ledger {
+    /// Opens the ledger in a folder, which is made if it is not there.
+    ///
+    /// # Errors
+    /// If the ledger, or anything that the results depend on, cannot be read.
+    pub fn open(folder: &Path, workspace: &Workspace, assignment: &str) -> Result<Self> {
+        std::fs::create_dir_all(folder).map_err(|error| Error::file(folder, error))?;
+        let path = folder.join("results.jsonl");
+        let text = match std::fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
+            Err(error) => return Err(Error::file(&path, error)),
+        };
+        // A line that was cut off, or is of an older format, is a result to be computed again.
+        let records = text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
+        Ok(Self { path, records, base: hash_of_inputs(workspace, assignment)? })
+    }
+
+    /// The results of a variant as it is now.
+    pub fn records(&self, variant: &Variant) -> Vec<&Record> {
+        let key = self.key(variant);
+        self.records.iter().filter(|record| record.key == key && record.variant == variant.id).collect()
+    }
+
+    /// Grades a variant, unless the result is there already.
+    ///
+    /// # Errors
+    /// What is not the variant's doing.
+    pub fn grade(&mut self, workspace: &Workspace, variant: &Variant, options: &Options) -> Result<()> {
+        if self.records(variant).iter().any(|record| record.seed == options.seed) {
+            return Ok(());
+        }
+        let submission =
+            Submission { path: PathBuf::from(format!("{}.rs", variant.id)), source: variant.source.clone() };
+        let report = grade(workspace, &submission, options, |_| {})?;
+        let record = record(self.key(variant), variant, options.seed, &report);
+        let line = serde_json::to_string(&record).map_err(|error| Error::Harness(error.to_string()))?;
+        std::fs::OpenOptions::new()
+            .create(true)
+            .append(true)
+            .open(&self.path)
+            .and_then(|mut file| writeln!(file, "{line}"))
+            .map_err(|error| Error::file(&self.path, error))?;
+        self.records.push(record);
+        Ok(())
+    }
+
+    fn key(&self, variant: &Variant) -> String {
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(self.base.as_bytes());
+        hasher.update(variant.source.as_bytes());
+        hasher.finalize().to_hex()[..32].to_owned()
+    }
+}
+
+fn record(key: String, variant: &Variant, seed: u64, report: &Report) -> Record {
+    let tasks = report.tasks.iter();
+    let checks = report.checks.iter();
+    Record {
+        key,
+        variant: variant.id.clone(),
+        seed,
+        tasks: tasks.filter_map(|task| Some((task.id.clone(), [task.points?, task.max]))).collect(),
+        checks: checks.map(|check| (format!("{} {}", check.task, check.id), check.verdict)).collect(),
+        build_failure: report.submission.build_failure.as_ref().map(|failure| failure.messages.clone()),
+        seconds: report.cost.build + report.cost.run,
+    }
+}
+
+/// Over the rubric, scenes and references, the framework and all of the grader but this command.
+fn hash_of_inputs(workspace: &Workspace, assignment: &str) -> Result<blake3::Hash> {
+    let root = workspace.root();
+    let mut hasher = blake3::Hasher::new();
+    for path in
+        ["Cargo.lock", "Cargo.toml", "skeleton/src", "grader/host", "grader/src", "scenes", "references"]
+    {
+        hash_tree(&root.join(path), &mut hasher)?;
+    }
+    hash_tree(&workspace.assignment(assignment).join("rubric.yml"), &mut hasher)?;
+    Ok(hasher.finalize())
+}
+
+fn hash_tree(path: &Path, hasher: &mut blake3::Hasher) -> Result<()> {
+    let name = path.file_name().unwrap_or_default();
+    let trouble = |error: std::io::Error| Error::file(path, error);
+    if !path.is_dir() {
+        hasher.update(name.as_encoded_bytes());
+        hasher.update(blake3::hash(&std::fs::read(path).map_err(trouble)?).as_bytes());
+        return Ok(());
+    }
+    // What neither makes nor judges an image.
+    if ["mutants", "commands", "pictures", "algorithms", "cli"].iter().any(|&other| name == other) {
+        return Ok(());
+    }
+    let mut entries = std::fs::read_dir(path)
+        .map_err(trouble)?
+        .map(|entry| entry.map(|entry| entry.path()))
+        .collect::<std::io::Result<Vec<_>>>()
+        .map_err(trouble)?;
+    entries.sort();
+    entries.iter().try_for_each(|entry| hash_tree(entry, hasher))
+}

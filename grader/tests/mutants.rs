@@ -1,0 +1,101 @@
+//! The variants of the solution: that they are what they say, that the table is about them, and, of a few, what the
+//! grader makes of them. Seeds are fixed: each run gives the same verdicts.
+
+use std::collections::BTreeSet;
+
+use grader::build::{Framework, compile};
+use grader::grade::{Options, grade};
+use grader::mutants::{Kind, Variant, Variants, variants};
+use grader::report::Verdict;
+use grader::rubric::Rubric;
+use grader::submission::Submission;
+use grader::workspace::Workspace;
+
+/// The numbers that the catalogue of mistakes has given out.
+const CATALOGUE: [u32; 47] = [
+    1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 29, 30,
+    31, 32, 33, 34, 35, 36, 38, 39, 41, 43, 45, 47, 49, 52, 53, 54, 55, 56, 57,
+];
+
+fn workspace() -> Workspace {
+    Workspace::find().expect("the tests run inside the checkout")
+}
+
+fn all() -> Variants {
+    let workspace = workspace();
+    let rubric = Rubric::load(&workspace.assignment("05-nee-mis").join("rubric.yml")).expect("it is sound");
+    variants(&workspace, &rubric).expect("each replacement fits the solution, each task the rubric")
+}
+
+#[test]
+fn every_mistake_of_the_catalogue_is_a_variant_or_said_to_be_impossible() {
+    let all = all();
+    let named: BTreeSet<String> = all
+        .list
+        .iter()
+        .flat_map(|variant| variant.rows.clone())
+        .chain(all.not_possible.iter().map(|missing| missing.row.clone()))
+        .collect();
+    let catalogue: BTreeSet<String> = CATALOGUE.iter().map(u32::to_string).collect();
+    assert_eq!(named, catalogue);
+}
+
+#[test]
+fn there_are_a_dozen_right_variants_and_no_two_variants_are_the_same() {
+    let all = all();
+    assert!(all.list.iter().filter(|variant| variant.kind == Kind::Right).count() >= 12);
+    let sources: BTreeSet<&str> = all.list.iter().map(|variant| variant.source.as_str()).collect();
+    assert_eq!(sources.len(), all.list.len());
+}
+
+#[test]
+fn every_variant_compiles() {
+    let framework = Framework::build(&workspace()).expect("the framework builds");
+    for variant in all().list {
+        if let Err(failure) = compile(&framework, &variant.source).expect("rustc runs") {
+            panic!("{}:\n{}", variant.id, failure.messages);
+        }
+    }
+}
+
+#[test]
+fn the_kill_matrix_is_about_the_variants_that_there_are() {
+    let path = workspace().kill_matrix();
+    let table = std::fs::read_to_string(&path).expect("the table is there");
+    let listed: Vec<&str> = table
+        .lines()
+        .filter_map(|line| line.strip_prefix("| `")?.split_once('`'))
+        .map(|(id, _)| id)
+        .collect();
+    let variants = all().list;
+    let there: Vec<&str> = variants.iter().map(|variant| variant.id.as_str()).collect();
+    assert_eq!(listed, there, "make the table anew with `cargo grader mutants`");
+}
+
+fn verdict(variant: &Variant, check: &str) -> Verdict {
+    let submission = Submission { path: format!("{}.rs", variant.id).into(), source: variant.source.clone() };
+    let options =
+        Options { assignment: "05-nee-mis".into(), seed: 1, threads: 2, only: vec![check.to_owned()] };
+    let report = grade(&workspace(), &submission, &options, |_| {}).expect("the harness works");
+    assert_eq!(report.checks.len(), 1, "{check}");
+    report.checks[0].verdict
+}
+
+#[test]
+fn a_few_variants_are_judged_as_the_table_says() {
+    let (point, furnace) = ("mean-bias/point_plane/nee/1", "white-furnace/furnace_diffuse/mis/2");
+    let variants = all().list;
+    for (id, check, expected) in [
+        ("receiver-cosine-missing", point, Verdict::Fail),
+        ("times-pi", point, Verdict::Fail),
+        ("mis-hit-unweighted", point, Verdict::Pass),
+        ("mis-hit-unweighted", furnace, Verdict::Fail),
+        ("recursive", point, Verdict::Pass),
+        ("separate-mis-ray", furnace, Verdict::Pass),
+        ("path-state", furnace, Verdict::Pass),
+        ("iterators", furnace, Verdict::Pass),
+    ] {
+        let variant = variants.iter().find(|variant| variant.id == id).expect(id);
+        assert_eq!(verdict(variant, check), expected, "{id}, {check}");
+    }
+}
