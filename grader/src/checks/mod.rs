@@ -20,7 +20,7 @@ use crate::reference::{Reference, SIZE};
 use crate::report::{CheckResult, Reason, Verdict};
 use crate::rubric::{CheckKind, CheckSpec, Hits, Task};
 use crate::statistics::bias::Expected;
-use crate::statistics::regions::{pyramid, weighted_image};
+use crate::statistics::regions::{Kind, pyramid, weighted_image};
 use crate::statistics::sequential::{Decision, Demand, Judgement, Question, judge};
 
 /// A scene with all that checks need to know of it.
@@ -247,7 +247,11 @@ fn describe(result: &mut CheckResult, judgement: &Judgement, spec: &CheckSpec) {
             Reason::Bias,
             format!(
                 "{} ({}), confirmed with fresh random numbers",
-                if judgement.is_pattern { describe_pattern(effect) } else { describe_effect(effect) },
+                if judgement.kind == Kind::Pattern {
+                    describe_pattern(effect)
+                } else {
+                    describe_effect(effect)
+                },
                 judgement.region
             ),
         ),

@@ -20,10 +20,21 @@ pub struct Region {
     pub level: u32,
     /// The weight of each pixel and channel.
     pub weights: Vec<[f64; 3]>,
-    /// True for the luminance of a tile, false for one of its channels.
-    pub is_luminance: bool,
-    /// True for a sum whose weights have either sign.
-    pub is_pattern: bool,
+    /// What is summed.
+    pub kind: Kind,
+}
+
+/// What a [`Region`] sums.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Red, green or blue of a tile.
+    Channel,
+    /// The luminance of a tile.
+    Luminance,
+    /// All pixels, each by how well it is known.
+    Weighted,
+    /// All tiles, with weights of either sign.
+    Pattern,
 }
 
 /// All tiles of all levels, each as red, green, blue and luminance. Levels with tiles smaller than a pixel are
@@ -41,9 +52,9 @@ pub fn pyramid(width: u32, height: u32) -> Vec<Region> {
                 let channels =
                     [("red", [1.0, 0.0, 0.0]), ("green", [0.0, 1.0, 0.0]), ("blue", [0.0, 0.0, 1.0])];
                 for (name, channel) in channels {
-                    regions.push(tile.region(level, name, channel, false));
+                    regions.push(tile.region(level, name, channel, Kind::Channel));
                 }
-                regions.push(tile.region(level, "luminance", LUMINANCE, true));
+                regions.push(tile.region(level, "luminance", LUMINANCE, Kind::Luminance));
             }
         }
     }
@@ -78,7 +89,7 @@ pub fn weighted_image(expected: &Expected) -> Region {
     // As for a tile, the weights of a sum that has the mean of a grey image of that brightness.
     let total: f64 = raw.iter().sum::<f64>().max(f64::MIN_POSITIVE);
     let weights = raw.iter().map(|weight| LUMINANCE.map(|channel| channel * weight / total)).collect();
-    Region { name: "whole image".to_owned(), level: 0, weights, is_luminance: false, is_pattern: false }
+    Region { name: "whole image".to_owned(), level: 0, weights, kind: Kind::Weighted }
 }
 
 struct Tile {
@@ -90,7 +101,7 @@ struct Tile {
 }
 
 impl Tile {
-    fn region(&self, level: u32, channel_name: &str, channel: [f64; 3], is_luminance: bool) -> Region {
+    fn region(&self, level: u32, channel_name: &str, channel: [f64; 3], kind: Kind) -> Region {
         let range = |size: u32, index: u32| size * index / self.across..size * (index + 1) / self.across;
         let (columns, rows) = (range(self.width, self.column), range(self.height, self.row));
         let pixels = f64::from((columns.end - columns.start) * (rows.end - rows.start));
@@ -104,7 +115,7 @@ impl Tile {
             0 => "whole image".to_owned(),
             _ => format!("pixels {}–{} × {}–{}", columns.start, columns.end - 1, rows.start, rows.end - 1),
         };
-        Region { name: format!("{place}, {channel_name}"), level, weights, is_luminance, is_pattern: false }
+        Region { name: format!("{place}, {channel_name}"), level, weights, kind }
     }
 }
 
@@ -117,7 +128,8 @@ mod tests {
         let regions = pyramid(16, 12);
         assert_eq!(regions.len(), 4 * (1 + 4 + 16 + 64));
         for level in 0..LEVELS {
-            let luminances = regions.iter().filter(|region| region.level == level && region.is_luminance);
+            let luminances =
+                regions.iter().filter(|region| region.level == level && region.kind == Kind::Luminance);
             let mut cover = vec![0; 16 * 12];
             for region in luminances {
                 let sum: f64 = region.weights.iter().flatten().sum();

@@ -10,7 +10,7 @@ use arty::sampler::batch_seed;
 
 use super::batches::Batches;
 use super::bias::{Comparison, Expected, all_of, smallest_of};
-use super::regions::{LEVELS, Region};
+use super::regions::{Kind, LEVELS, Region};
 
 /// How often correct submissions may be flagged by screening, over everything that is looked at in one grade.
 pub const SCREENING_LEVEL: f64 = 0.01;
@@ -62,8 +62,8 @@ pub struct Judgement {
     pub decision: Decision,
     /// The region that decided: the one that is biased, or else the whole image.
     pub region: String,
-    /// True if it is no tile, but a pattern over all of them.
-    pub is_pattern: bool,
+    /// What kind of region that is.
+    pub kind: Kind,
     /// That region's last comparison.
     pub comparison: Comparison,
     /// The smallest relative bias of the whole image that the samples would have shown.
@@ -118,7 +118,7 @@ pub fn judge<E>(
         let judgement = |decision, region: &Region, comparison, confirmation_samples| Judgement {
             decision,
             region: region.name.clone(),
-            is_pattern: region.is_pattern,
+            kind: region.kind,
             comparison,
             detectable: screening.whole.detectable(CONFIRMATION_LEVEL),
             samples: (batches.samples_per_pixel() + confirmation_samples) * pixels,
@@ -186,8 +186,9 @@ impl Screening {
         }
         // All tiles of the finest level at once, and the pattern of their differences as a region of its own.
         let finest = regions.iter().map(|region| region.level).max().unwrap_or(0);
-        let tiles: Vec<usize> =
-            (0..regions.len()).filter(|&i| regions[i].level == finest && regions[i].is_luminance).collect();
+        let tiles: Vec<usize> = (0..regions.len())
+            .filter(|&i| regions[i].level == finest && regions[i].kind == Kind::Luminance)
+            .collect();
         if tiles.len() > 1 {
             let p_value = all_of(&tiles.iter().map(|&i| p_values[i]).collect::<Vec<_>>());
             tests.push((p_value, pattern(regions, &comparisons, &tiles), 1.0));
@@ -223,8 +224,7 @@ fn pattern(regions: &[Region], comparisons: &[Comparison], tiles: &[usize]) -> R
         name: "a pattern over all tiles".to_owned(),
         level: regions[tiles[0]].level,
         weights,
-        is_luminance: true,
-        is_pattern: true,
+        kind: Kind::Pattern,
     }
 }
 

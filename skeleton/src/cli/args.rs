@@ -43,11 +43,11 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 0, help_heading = ALGORITHM)]
     pub(super) seed: u64,
 
-    /// Width in pixels (also -sx) [default: the scene's, else 512]
+    /// Width in pixels (also -sx) [default: in proportion to the height, or the scene's, or 512]
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=MAX_SIDE), help_heading = PICTURE)]
     pub(super) width: Option<u32>,
 
-    /// Height in pixels (also -sy) [default: the scene's, else 412]
+    /// Height in pixels (also -sy) [default: in proportion to the width, or the scene's, or 412]
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=MAX_SIDE), help_heading = PICTURE)]
     pub(super) height: Option<u32>,
 

@@ -75,9 +75,19 @@ impl Plan {
 
 /// Columns and rows of the picture.
 pub(super) fn size(args: &Args, defaults: Defaults) -> (u32, u32) {
-    let width = args.width.or(defaults.width).unwrap_or(DEFAULT_WIDTH);
-    let height = args.height.or(defaults.height).unwrap_or(DEFAULT_HEIGHT);
-    (width, height)
+    let (width, height) =
+        (defaults.width.unwrap_or(DEFAULT_WIDTH), defaults.height.unwrap_or(DEFAULT_HEIGHT));
+    // One of the two alone keeps the proportions.
+    let scaled = |given: u32, other: u32, of: u32| {
+        let exact = f64::from(given) * f64::from(other) / f64::from(of);
+        (exact.round() as u32).max(1)
+    };
+    match (args.width, args.height) {
+        (None, None) => (width, height),
+        (Some(given), None) => (given, scaled(given, height, width)),
+        (None, Some(given)) => (scaled(given, width, height), given),
+        (Some(width), Some(height)) => (width, height),
+    }
 }
 
 /// How often a path is scattered at most.
@@ -148,7 +158,11 @@ mod tests {
         let suggested = plan("arty x.yml", SUGGESTED).expect("valid");
         assert_eq!((suggested.width, suggested.height, settings(&suggested).max_bounces), (300, 200, 3));
         let decided = plan("arty x.yml --width=64 --max-bounces=0", SUGGESTED).expect("valid");
-        assert_eq!((decided.width, decided.height, settings(&decided).max_bounces), (64, 200, 0));
+        assert_eq!(
+            (decided.width, decided.height, settings(&decided).max_bounces),
+            (64, 43, 0),
+            "two thirds as high as wide, as suggested"
+        );
     }
 
     #[test]
