@@ -125,7 +125,7 @@ impl Renderer {
     ) -> Result<Vec<Vec<[f32; 3]>>> {
         let seeds: Vec<u64> = (0..u64::from(batches)).map(|batch| batch_seed(seed, batch)).collect();
         let pixels = u64::from(width) * u64::from(height);
-        let per_job = (8_000_000 / (pixels * samples)).max(1) as usize;
+        let per_job = (4_000_000 / (pixels * samples)).max(1) as usize;
         let mut means = Vec::with_capacity(batches as usize);
         for seeds in seeds.chunks(per_job) {
             let job = RenderJob {
