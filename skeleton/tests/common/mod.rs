@@ -1,5 +1,5 @@
 //! What the tests of the renderer share. Each test program uses a part of it.
-#![allow(dead_code)]
+#![allow(dead_code, reason = "each test program is compiled with all of it")]
 
 pub(crate) mod formulas;
 pub(crate) mod quadrature;
