@@ -15,7 +15,7 @@ use crate::report::{
     CheckResult, Cost, LeftOut, Numerics, Points, Reason, Report, SCHEMA, Sandbox, SubmissionInfo,
     TaskResult, Verdict,
 };
-use crate::rubric::{CheckSpec, Rubric, Task};
+use crate::rubric::{CheckKind, CheckSpec, Rubric, Task};
 use crate::statistics::sequential::SCREENING_LEVEL;
 use crate::submission::Submission;
 use crate::workspace::Workspace;
@@ -53,17 +53,21 @@ pub fn grade(
     let framework = Framework::build(workspace)?;
     let framework_time = framework_start.elapsed().as_secs_f64();
     let build_start = Instant::now();
-    let built = compile(&framework, &submission.source)?;
+    // Both at the same time: each keeps one processor busy.
+    let (built, solution) = rayon::join(
+        || compile(&framework, &submission.source),
+        || solution(workspace, &framework, &selected),
+    );
+    let (built, solution) = (built?, solution?);
     let build_time = build_start.elapsed().as_secs_f64();
 
     let run_start = Instant::now();
     let mut checks = Vec::new();
-    let mut left_out = plan::left_out(&rubric, |name| scenes.get(name));
+    let mut left_out = plan::left_out(&scenes);
     if let Ok(program) = &built {
-        let bench = bench(program, &scenes, submission, options, rubric.checks().count());
+        let bench = bench(program, solution.as_ref(), &scenes, submission, options, rubric.checks().count());
         for (task, spec) in &selected {
-            let judged = scenes.get(&spec.scene);
-            if let Some(why) = judged.and_then(|judged| plan::why_left_out(spec, judged)) {
+            if let Some(why) = plan::why_left_out(spec, scenes.get(&spec.scene), solution.is_some()) {
                 left_out.push(LeftOut { check: spec.id(), scene: spec.scene.clone(), why });
                 continue;
             }
@@ -80,6 +84,7 @@ pub fn grade(
         .iter()
         .map(|task| mark(task, &selected, &checks, &left_out, build_failure.is_some()))
         .collect();
+    let tasks = require(&rubric, tasks, &checks);
     let total =
         |manual: bool| rubric.tasks.iter().filter(|task| task.manual == manual).map(|task| task.points).sum();
     let points = Points {
@@ -157,18 +162,40 @@ fn load_scenes(workspace: &Workspace, selected: &Selected<'_>) -> Result<BTreeMa
     let mut scenes = BTreeMap::new();
     for (_, spec) in selected.iter().filter(|(_, spec)| spec.check.needs_scene()) {
         if !scenes.contains_key(&spec.scene) {
-            let description = arty::scene::file::load(&workspace.scene_file(&spec.scene))?.description;
-            let reference =
-                reference::load(&workspace.reference_file(&spec.scene), &spec.scene, &description)?;
-            let scene = Scene::new(&description);
-            scenes.insert(spec.scene.clone(), JudgedScene { description, scene, reference });
+            scenes.insert(spec.scene.clone(), load_scene(workspace, &spec.scene)?);
         }
     }
     Ok(scenes)
 }
 
+/// Loads a scene of the collection with its reference.
+pub fn load_scene(workspace: &Workspace, name: &str) -> Result<JudgedScene> {
+    let description = arty::scene::file::load(&workspace.scene_file(name))?.description;
+    let reference = reference::load(&workspace.reference_file(name), name, &description)?;
+    Ok(JudgedScene { scene: Scene::new(&description), description, reference })
+}
+
+/// The solution, if a check needs it and the repository has it.
+fn solution(
+    workspace: &Workspace,
+    framework: &Framework,
+    selected: &Selected<'_>,
+) -> Result<Option<HandInProgram>> {
+    let needed = selected.iter().any(|(_, spec)| spec.check == CheckKind::HiddenVariants);
+    let path = workspace.solution_file();
+    if !needed || !path.is_file() {
+        return Ok(None);
+    }
+    let source = std::fs::read_to_string(&path).map_err(|error| Error::file(&path, error))?;
+    match compile(framework, &source)? {
+        Ok(program) => Ok(Some(program)),
+        Err(failure) => Err(Error::file(&path, format!("does not compile:\n{}", failure.messages))),
+    }
+}
+
 fn bench<'a>(
     program: &'a HandInProgram,
+    solution: Option<&'a HandInProgram>,
     scenes: &'a BTreeMap<String, JudgedScene>,
     submission: &Submission,
     options: &Options,
@@ -178,6 +205,7 @@ fn bench<'a>(
     let path = quote(&submission.path);
     Bench {
         program,
+        solution,
         scenes,
         seed: *seed,
         screening_level: SCREENING_LEVEL / checks as f64,
@@ -256,6 +284,24 @@ fn mark(
         result.reason = missing.join(", ");
     }
     result
+}
+
+/// Takes the points of tasks that rest on other tasks' evidence where that is missing.
+fn require(rubric: &Rubric, mut tasks: Vec<TaskResult>, results: &[CheckResult]) -> Vec<TaskResult> {
+    for (task, result) in rubric.tasks.iter().zip(&mut tasks) {
+        let lacks = |other: &&String| {
+            results
+                .iter()
+                .any(|check| check.task == **other && check.evidence && check.verdict != Verdict::Pass)
+        };
+        if let (Some(points), Some(required)) = (result.points, task.requires.iter().find(lacks))
+            && points > 0.0
+        {
+            result.points = Some(0.0);
+            result.reason = format!("no points without {required}");
+        }
+    }
+    tasks
 }
 
 fn hash_of_file(path: &Path) -> Result<String> {

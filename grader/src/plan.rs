@@ -1,58 +1,95 @@
 //! Which checks mean something in which scene.
 
+use std::collections::BTreeMap;
+
 use arty::integrator::Technique;
 
-use crate::checks::{JudgedScene, is_furnace};
+use crate::checks::{JudgedScene, why_it_does_not_tell, why_no_closed_form, why_no_furnace};
 use crate::report::LeftOut;
-use crate::rubric::{CheckKind, CheckSpec, Rubric};
+use crate::rubric::{CheckKind, CheckSpec, Hits};
 
-/// Why a check would mean nothing in its scene; `None` if it does mean something.
-pub fn why_left_out(spec: &CheckSpec, judged: &JudgedScene) -> Option<String> {
+/// A kind of check in a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// Which kind.
+    pub check: CheckKind,
+    /// With which technique.
+    pub technique: Technique,
+    /// Why it would mean nothing there; `None` if it does mean something.
+    pub why_not: Option<String>,
+}
+
+/// Everything that could be looked at in a scene.
+pub fn for_scene(judged: &JudgedScene) -> Vec<Entry> {
+    let techniques: fn(CheckKind) -> &'static [Technique] = |check| match check {
+        CheckKind::MisWeights => &[Technique::Mis],
+        CheckKind::Efficiency | CheckKind::LightPick | CheckKind::RayBudget => {
+            &[Technique::Nee, Technique::Mis]
+        }
+        _ => &[Technique::Bsdf, Technique::Nee, Technique::Mis],
+    };
+    let entry = |check, technique| {
+        // Direct light has a closed form, and differences in noise, in more scenes than all of it.
+        let direct = matches!(check, CheckKind::ClosedForm | CheckKind::Efficiency);
+        let all = judged.scene.defaults().max_bounces.unwrap_or(8);
+        let spec = CheckSpec::new(check, technique, if direct { 1 } else { all });
+        Entry { check, technique, why_not: why_not(&spec, judged) }
+    };
+    let kinds = CheckKind::ALL.into_iter().filter(|&check| check != CheckKind::HiddenVariants);
+    kinds.flat_map(|check| techniques(check).iter().map(move |&technique| entry(check, technique))).collect()
+}
+
+/// Why a check of a rubric is left out; `None` if it is not. Its scene is `None` if it makes its own.
+pub fn why_left_out(spec: &CheckSpec, judged: Option<&JudgedScene>, has_solution: bool) -> Option<String> {
+    match judged {
+        Some(judged) => why_not(spec, judged),
+        None => (spec.check == CheckKind::HiddenVariants && !has_solution)
+            .then(|| "there is no solution here to compare with".to_owned()),
+    }
+}
+
+/// What is left out in all scenes of a grade, and why.
+pub fn left_out(scenes: &BTreeMap<String, JudgedScene>) -> Vec<LeftOut> {
+    let of_scene = |(name, judged): (&String, &JudgedScene)| -> Vec<LeftOut> {
+        let left_out = |entry: Entry| {
+            let check = format!("{} with {}", entry.check.name(), entry.technique);
+            entry.why_not.map(|why| LeftOut { check, scene: name.clone(), why })
+        };
+        for_scene(judged).into_iter().filter_map(left_out).collect()
+    };
+    scenes.iter().flat_map(of_scene).collect()
+}
+
+fn why_not(spec: &CheckSpec, judged: &JudgedScene) -> Option<String> {
     let features = judged.scene.features();
+    let no_area = || "no light has an area: paths never hit one".to_owned();
+    let nothing_lit =
+        || "every surface is black, a mirror or glass: next event estimation has nothing to do".to_owned();
     if !features.has_lights() {
-        return Some("there are no lights: every technique gives black".to_owned());
+        return (spec.check != CheckKind::RayBudget)
+            .then(|| "there are no lights: every technique gives black".to_owned());
     }
     if spec.technique == Technique::Bsdf && features.area_lights == 0 {
-        return Some("no light has an area: BSDF sampling gives black".to_owned());
+        return Some(format!("{}, and BSDF sampling gives black", no_area()));
     }
-    if spec.technique != Technique::Bsdf && features.lit_surfaces == 0 {
-        return Some(
-            "every surface is black, a mirror or glass: next event estimation has nothing to do".to_owned(),
-        );
-    }
-    if spec.check == CheckKind::WhiteFurnace && !is_furnace(judged) {
-        return Some(not_a_furnace(judged));
-    }
-    None
-}
-
-/// What is left out over all scenes of a rubric, beside its own checks: kinds that mean nothing in a scene.
-pub fn left_out<'a>(rubric: &Rubric, scene: impl Fn(&str) -> Option<&'a JudgedScene>) -> Vec<LeftOut> {
-    let mut list = Vec::new();
-    for name in rubric.scenes().keys() {
-        let Some(judged) = scene(name) else { continue };
-        if !is_furnace(judged) {
-            list.push(LeftOut {
-                check: CheckKind::WhiteFurnace.name().to_owned(),
-                scene: (*name).to_owned(),
-                why: not_a_furnace(judged),
-            });
+    match spec.check {
+        CheckKind::MeanBias if spec.hits == Hits::Off && features.lit_surfaces == 0 => Some(nothing_lit()),
+        CheckKind::WhiteFurnace => why_no_furnace(judged),
+        CheckKind::ClosedForm => why_no_closed_form(judged, spec.max_bounces),
+        CheckKind::MisWeights if features.area_lights == 0 => {
+            Some(format!("{}, so that there is nothing to weigh", no_area()))
         }
-        if judged.scene.features().area_lights == 0 {
-            list.push(LeftOut {
-                check: format!("{} with {}", CheckKind::MeanBias.name(), Technique::Bsdf),
-                scene: (*name).to_owned(),
-                why: "no light has an area: BSDF sampling gives black".to_owned(),
-            });
+        CheckKind::LightPick | CheckKind::MisWeights | CheckKind::RayBudget if features.lit_surfaces == 0 => {
+            Some(nothing_lit())
         }
-    }
-    list
-}
-
-fn not_a_furnace(judged: &JudgedScene) -> String {
-    if judged.scene.features().closed {
-        "closed, but not of one diffuse emitting material: there is no closed form".to_owned()
-    } else {
-        "the camera is not enclosed: light gets lost".to_owned()
+        CheckKind::LightPick if features.area_lights + features.point_lights < 2 => {
+            Some("there is only one light to pick".to_owned())
+        }
+        CheckKind::Efficiency if features.area_lights == 0 => {
+            Some(format!("{}, so that there is only one technique", no_area()))
+        }
+        CheckKind::Efficiency if features.lit_surfaces == 0 => Some(nothing_lit()),
+        CheckKind::Efficiency => why_it_does_not_tell(judged, spec),
+        _ => None,
     }
 }

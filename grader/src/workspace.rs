@@ -74,6 +74,11 @@ impl Workspace {
         self.variants().join("kill-matrix.md")
     }
 
+    /// The table of how often correct hand-ins fail.
+    pub fn calibration_table(&self) -> PathBuf {
+        self.variants().join("calibration.md")
+    }
+
     /// Where Cargo puts the framework that hand-ins are linked against, apart from all other builds.
     pub fn framework_target(&self) -> PathBuf {
         self.root.join("target/framework")

@@ -8,12 +8,19 @@
 //!
 //! **Switches** take away one of the two ways in which light is found. They belong to a scene.
 //!
+//! **Strata** spread the integrator's own random numbers evenly over many paths.
+//!
 //! **Counts** are those of the current thread, since one path is followed on one thread.
+
+mod strata;
 
 use std::cell::Cell;
 
 use crate::bsdf::BsdfSample;
 use crate::math::{Rgb, Vec3, direction};
+
+pub(crate) use strata::place;
+pub use strata::{Strata, set_strata};
 
 /// A BSDF with the same value and density for all directions above the horizon.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -28,13 +28,22 @@ impl Sampler {
     /// The next number, uniform in [0, 1): a multiple of 2⁻²⁴, never 1.
     #[inline]
     pub fn next_1d(&mut self) -> f32 {
-        self.draw()
+        self.own()
     }
 
     /// The next two numbers, each uniform in [0, 1), independent of each other.
     #[inline]
     pub fn next_2d(&mut self) -> (f32, f32) {
-        (self.draw(), self.draw())
+        (self.own(), self.own())
+    }
+
+    /// A number for an integrator.
+    #[inline]
+    fn own(&mut self) -> f32 {
+        let number = self.draw();
+        #[cfg(feature = "probe")]
+        let number = crate::probe::place(number);
+        number
     }
 
     /// The numbers that the framework itself takes, inside `sample` and `sample_direct`.

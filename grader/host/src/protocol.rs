@@ -66,6 +66,8 @@ pub struct ProbeJob {
     pub samples: u64,
     /// The seed of these random numbers.
     pub seed: u64,
+    /// True if these numbers fill [0, 1) evenly over all paths of a scene; then `samples` is a power of two, at most 2²⁰.
+    pub stratified: bool,
 }
 
 /// A scene of which densities and BSDFs are scripted; its geometry is true.

@@ -53,6 +53,11 @@ fn answer_all(
                     guarded(|| Response::Rendered(render::batches(constructor, scene, &job)))
                 }
             },
+            Request::Probe(job)
+                if job.stratified && !(job.samples.is_power_of_two() && job.samples <= 1 << 20) =>
+            {
+                Response::Rejected { message: format!("{} paths cannot be stratified", job.samples) }
+            }
             Request::Probe(job) => guarded(|| Response::Probed(probe::all(constructor, &job))),
         };
         write_message(output, &response)?;

@@ -1,12 +1,24 @@
 //! **mean-bias**: are the means those of the reference image?
 
-use crate::error::{Error, Result};
+use super::means::{self, Picture};
+use super::{Bench, Stop};
+use crate::error::Error;
 use crate::reference::Reference;
+use crate::report::CheckResult;
 use crate::rubric::{CheckSpec, Hits};
 use crate::statistics::bias::Expected;
 
+pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult) -> Result<(), Stop> {
+    let judged = bench.scene(spec);
+    let expected = expected(spec, &judged.reference)?;
+    means::run(bench, &Picture::of(bench, spec, &[&judged.description], &expected), result)
+}
+
 /// What the reference says.
-pub(super) fn expected(spec: &CheckSpec, reference: &Reference) -> Result<Expected> {
+///
+/// # Errors
+/// If it does not have that picture.
+pub fn expected(spec: &CheckSpec, reference: &Reference) -> Result<Expected, Error> {
     reference
         .views
         .get(&spec.view())

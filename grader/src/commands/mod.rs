@@ -1,8 +1,10 @@
 //! The commands of the program.
 
+mod calibrate;
 mod figures;
 mod grade;
 mod mutants;
+mod plan;
 mod reference;
 mod trusted;
 
@@ -22,10 +24,14 @@ struct Arguments {
 enum Command {
     /// Grade one hand-in: build it, run its checks, print points, write report.json.
     Grade(grade::Arguments),
+    /// Measure how often correct hand-ins fail, and how small an error is found (for staff).
+    Calibrate(calibrate::Arguments),
     /// Render the figures of the sheet with the solution (for staff).
     Figures(figures::Arguments),
     /// Grade wrong and right variants of the solution: what is caught, and what is not (for staff).
     Mutants(mutants::Arguments),
+    /// Say which checks mean something in a scene, and why others are left out.
+    Plan(plan::Arguments),
     /// Render the references of scenes with the solution (for staff).
     Reference(reference::Arguments),
 }
@@ -35,8 +41,10 @@ enum Command {
 pub fn run() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Grade(arguments) => grade::run(&arguments),
+        Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Mutants(arguments) => mutants::run(&arguments),
+        Command::Plan(arguments) => plan::run(&arguments),
         Command::Reference(arguments) => reference::run(&arguments),
     };
     outcome.unwrap_or_else(|error| {

@@ -110,7 +110,7 @@ fn record(key: String, variant: &Variant, seed: u64, report: &Report) -> Record 
 }
 
 /// Over the rubric, scenes and references, the framework and all of the grader but this command.
-fn hash_of_inputs(workspace: &Workspace, assignment: &str) -> Result<blake3::Hash> {
+pub fn hash_of_inputs(workspace: &Workspace, assignment: &str) -> Result<blake3::Hash> {
     let root = workspace.root();
     let mut hasher = blake3::Hasher::new();
     for path in

@@ -9,7 +9,7 @@ mod outcome;
 mod table;
 mod variant;
 
-pub use ledger::{Ledger, Record};
+pub use ledger::{Ledger, Record, hash_of_inputs};
 pub use outcome::Outcome;
 pub use table::table;
 pub use variant::{Kind, NotPossible, Variant, Variants, variants};

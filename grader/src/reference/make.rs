@@ -14,6 +14,7 @@ use crate::build::HandInProgram;
 use crate::error::{Error, Result};
 use crate::host_process::HostProcess;
 use crate::rubric::{Hits, View};
+use crate::statistics::bias::Expected;
 
 /// How many samples a reference takes.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +45,7 @@ pub fn make(
     effort: Effort,
     seed: u64,
 ) -> Result<Reference> {
-    let mut renderer = Renderer::start(solution, description)?;
+    let mut renderer = Renderer::start(solution, description, rayon::current_num_threads())?;
     let mut views = BTreeMap::new();
     for (&view, techniques) in wanted {
         let max_bounces = view.max_bounces;
@@ -77,6 +78,27 @@ pub fn make(
     Ok(Reference { scene_hash: description.hash(), views, provenance })
 }
 
+/// What a correct estimator gives in a scene without a reference: as the solution renders it now, `samples` times.
+pub fn live(
+    solution: &HandInProgram,
+    description: &SceneDescription,
+    settings: Settings,
+    samples: u32,
+    seed: u64,
+    threads: usize,
+) -> Result<Expected> {
+    let mut renderer = Renderer::start(solution, description, threads)?;
+    let samples = renderer.render(SIZE, settings, samples, 1, seed)?;
+    let (mean, variance) = mean_and_variance(&samples);
+    let count = samples.len() as f64;
+    let variance_of_mean = variance.into_iter().map(|value| value.map(|value| value / count)).collect();
+    let techniques = BTreeMap::from([(settings.technique.name(), moments(&samples))]);
+    let light = Light { mean, variance_of_mean, techniques };
+    light
+        .expected(settings.technique)
+        .ok_or_else(|| Error::Harness("the solution's own rendering has no moments".to_owned()))
+}
+
 /// Samples of each pixel that one batch of a picture takes at most.
 const PICTURE_BATCH: u64 = 16;
 
@@ -92,7 +114,7 @@ pub fn picture(
     // In batches, so that no job takes long.
     let per_batch = (1..=PICTURE_BATCH).rev().find(|&size| samples.is_multiple_of(size)).unwrap_or(1);
     let batches = u32::try_from(samples / per_batch).unwrap_or(u32::MAX);
-    let mut renderer = Renderer::start(program, description)?;
+    let mut renderer = Renderer::start(program, description, rayon::current_num_threads())?;
     let (mean, _) =
         mean_and_variance(&renderer.render((width, height), settings, batches, per_batch, seed)?);
     let pixels = mean.iter().map(|pixel| Rgb::from(pixel.map(|channel| channel as f32))).collect();
@@ -107,8 +129,8 @@ struct Renderer {
 }
 
 impl Renderer {
-    fn start(program: &HandInProgram, description: &SceneDescription) -> Result<Self> {
-        let mut process = HostProcess::start(program, rayon::current_num_threads())?;
+    fn start(program: &HandInProgram, description: &SceneDescription, threads: usize) -> Result<Self> {
+        let mut process = HostProcess::start(program, threads)?;
         let scene =
             process.load(description)?.map_err(|fault| Error::Harness(format!("the solution: {fault}")))?;
         Ok(Self { process, scene, switches: Switches::default() })
@@ -125,7 +147,7 @@ impl Renderer {
     ) -> Result<Vec<Vec<[f32; 3]>>> {
         let seeds: Vec<u64> = (0..u64::from(batches)).map(|batch| batch_seed(seed, batch)).collect();
         let pixels = u64::from(width) * u64::from(height);
-        let per_job = (4_000_000 / (pixels * samples)).max(1) as usize;
+        let per_job = (1_000_000 / (pixels * samples)).max(1) as usize;
         let mut means = Vec::with_capacity(batches as usize);
         for seeds in seeds.chunks(per_job) {
             let job = RenderJob {

@@ -17,7 +17,7 @@ use crate::rubric::View;
 use crate::statistics::bias::Expected;
 
 pub use file::{load, save};
-pub use make::{Effort, Wanted, make, picture};
+pub use make::{Effort, Wanted, live, make, picture};
 
 /// Width and height of references for judging, in pixels.
 pub const SIZE: (u32, u32) = (16, 16);
@@ -64,10 +64,10 @@ impl Light {
             |pixel: usize, channel: usize| moments.deviation[pixel][channel] * self.mean[pixel][channel];
         Some(Expected {
             mean: self.mean.clone(),
-            variance_of_mean: self.variance_of_mean.clone(),
-            sample_variance: per_value(&|pixel, channel| deviation(pixel, channel).powi(2)),
-            third_moment: per_value(&|pixel, channel| {
-                moments.skewness[pixel][channel] * deviation(pixel, channel).powi(3)
+            error: self.variance_of_mean.iter().map(|variance| variance.map(f64::sqrt)).collect(),
+            deviation: per_value(&deviation),
+            asymmetry: per_value(&|pixel, channel| {
+                moments.skewness[pixel][channel].max(0.0).cbrt() * deviation(pixel, channel)
             }),
         })
     }

@@ -128,8 +128,30 @@ pub struct CheckResult {
     /// What was found about the weights, where they were looked at.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weights: Option<Weights>,
+    /// In a furnace: how many times light counts that is scattered 0, 1, 2, … times. Each should be 1.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub coefficients: Vec<f64>,
+    /// How noisy the hand-in is, where that was looked at.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub variance_ratios: Vec<VarianceOf>,
+    /// What is worth knowing, but costs no points.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub remarks: Vec<String>,
+    /// For each of 8 × 8 tiles (row by row from the top) how many standard errors it was off, as normal deviates, where
+    /// one picture was judged.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub z: Vec<f64>,
     /// The command that repeats it.
     pub repeat: String,
+}
+
+/// How noisy a hand-in is, compared with a technique.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct VarianceOf {
+    /// The solution's technique that it is compared with.
+    pub technique: Technique,
+    /// The hand-in's variance of one sample, relative to that one's.
+    pub ratio: f64,
 }
 
 /// How a check can end.
@@ -160,6 +182,12 @@ pub enum Reason {
     Weights,
     /// Too noisy.
     Noise,
+    /// So noisy that a technique is missing.
+    Efficiency,
+    /// Random numbers that are shared or not those of the sampler.
+    Randomness,
+    /// More rays than the sheet allows.
+    RayBudget,
     /// NaN, infinite or negative samples.
     Numerics,
     /// The hand-in took too long.

@@ -1,5 +1,7 @@
 //! Independent renderings of one image, growing from look to look.
 
+use super::regions::Region;
+
 /// For each batch the mean of its samples in each pixel, per channel.
 #[derive(Clone, Debug, Default)]
 pub struct Batches {
@@ -35,6 +37,11 @@ impl Batches {
         self.means.len()
     }
 
+    /// The number of pixels of each.
+    pub fn pixels(&self) -> usize {
+        self.means.first().map_or(0, Vec::len)
+    }
+
     /// Samples of each pixel over all batches.
     pub fn samples_per_pixel(&self) -> u64 {
         self.samples * self.means.len() as u64
@@ -49,17 +56,23 @@ impl Batches {
         squares / (count - 1.0).max(1.0) * self.samples as f64
     }
 
-    /// For each batch a weighted sum over all pixels and channels.
-    pub fn contrast<'a>(&'a self, weights: &'a [[f64; 3]]) -> impl Iterator<Item = f64> + 'a {
+    /// For each batch the weighted sum over the pixels and channels of a region.
+    pub fn contrast<'a>(&'a self, region: &'a Region) -> impl Iterator<Item = f64> + 'a {
         self.means.iter().map(move |batch| {
-            let products = batch.iter().zip(weights);
+            let products = region.weights.iter().map(|(pixel, weights)| (batch[*pixel], weights));
             products.map(|(means, weights)| (0..3).map(|c| means[c] * weights[c]).sum::<f64>()).sum()
         })
+    }
+
+    /// For each batch the mean of a pixel's channel.
+    pub fn values(&self, pixel: usize, channel: usize) -> impl Iterator<Item = f64> + '_ {
+        self.means.iter().map(move |batch| batch[pixel][channel])
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::regions::Kind;
     use super::*;
 
     #[test]
@@ -68,7 +81,9 @@ mod tests {
         batches.extend(&[vec![[1.0, 2.0, 3.0]], vec![[0.0; 3]]], 1);
         batches.extend(&[vec![[5.0, 2.0, 0.0]], vec![[4.0; 3]]], 3);
         assert_eq!((batches.count(), batches.samples_per_pixel()), (2, 8));
-        let red: Vec<f64> = batches.contrast(&[[1.0, 0.0, 0.0]]).collect();
+        let weights = vec![(0, [1.0, 0.0, 0.0])];
+        let region = Region { name: "red".to_owned(), level: 0, weights, kind: Kind::Channel };
+        let red: Vec<f64> = batches.contrast(&region).collect();
         assert_eq!(red, [4.0, 3.0]);
     }
 }

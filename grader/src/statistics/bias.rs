@@ -5,17 +5,17 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, Normal, StudentsT};
 use super::batches::Batches;
 use super::regions::Region;
 
-/// What a region's mean should be, and how noisy a correct estimator is there.
+/// What a region's mean should be, and how noisy a correct estimator is there. All lists are by pixel and channel.
 #[derive(Clone, Debug)]
 pub struct Expected {
     /// The mean of each pixel.
     pub mean: Vec<[f64; 3]>,
-    /// The variance of that mean: what the reference itself does not know. Zero for an exact answer.
-    pub variance_of_mean: Vec<[f64; 3]>,
-    /// The variance of one sample of a correct estimator.
-    pub sample_variance: Vec<[f64; 3]>,
-    /// The third central moment of one sample of a correct estimator.
-    pub third_moment: Vec<[f64; 3]>,
+    /// The standard deviation of that mean: what the reference itself does not know. Zero for an exact answer.
+    pub error: Vec<[f64; 3]>,
+    /// The standard deviation of one sample of a correct estimator.
+    pub deviation: Vec<[f64; 3]>,
+    /// The cube root of the third central moment of one sample of a correct estimator; zero where that is negative.
+    pub asymmetry: Vec<[f64; 3]>,
 }
 
 impl Expected {
@@ -35,17 +35,23 @@ impl Expected {
                 let scale = mean.powi(2) + image_mean.powi(2);
                 if scale > 0.0 {
                     own += batches.variance(pixel, channel) / scale;
-                    reference += self.sample_variance[pixel][channel] / scale;
+                    reference += self.deviation[pixel][channel].powi(2) / scale;
                 }
             }
         }
-        let factor = if reference > 0.0 { (own / reference).max(1.0) } else { 1.0 };
-        let scaled =
-            |values: &[[f64; 3]], factor: f64| values.iter().map(|value| value.map(|v| v * factor)).collect();
+        let factor = if reference > 0.0 { (own / reference).max(1.0).sqrt() } else { 1.0 };
+        let scaled = |values: &[[f64; 3]]| values.iter().map(|value| value.map(|v| v * factor)).collect();
+        Self { deviation: scaled(&self.deviation), asymmetry: scaled(&self.asymmetry), ..self.clone() }
+    }
+
+    /// What the same estimator gives if all light is `factor` times as bright.
+    pub fn brightened(&self, factor: f64) -> Self {
+        let scaled = |values: &[[f64; 3]]| values.iter().map(|value| value.map(|v| v * factor)).collect();
         Self {
-            sample_variance: scaled(&self.sample_variance, factor),
-            third_moment: scaled(&self.third_moment, factor.powf(1.5)),
-            ..self.clone()
+            mean: scaled(&self.mean),
+            error: scaled(&self.error),
+            deviation: scaled(&self.deviation),
+            asymmetry: scaled(&self.asymmetry),
         }
     }
 }
@@ -77,7 +83,7 @@ impl Comparison {
     /// a heavy tail that no batch has met yet makes s far too small; and what the reference does not know.
     pub fn new(batches: &Batches, expected: &Expected, region: &Region) -> Self {
         let count = batches.count() as f64;
-        let values: Vec<f64> = batches.contrast(&region.weights).collect();
+        let values: Vec<f64> = batches.contrast(region).collect();
         let mean = values.iter().sum::<f64>() / count;
         let spread = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
 
@@ -85,16 +91,13 @@ impl Comparison {
         let samples = batches.samples_per_pixel() as f64;
         let (mut expected_mean, mut scale) = (0.0, 0.0);
         let (mut reference_variance, mut floor, mut third_moment) = (0.0, 0.0, 0.0);
-        for (pixel, weights) in region.weights.iter().enumerate() {
-            if *weights == [0.0; 3] {
-                continue;
-            }
+        for &(pixel, weights) in &region.weights {
             let sum = |values: &[f64; 3]| -> f64 { (0..3).map(|c| weights[c].abs() * values[c]).sum() };
             expected_mean += (0..3).map(|c| weights[c] * expected.mean[pixel][c]).sum::<f64>();
             scale += sum(&expected.mean[pixel]);
-            reference_variance += sum(&expected.variance_of_mean[pixel].map(f64::sqrt)).powi(2);
-            floor += sum(&expected.sample_variance[pixel].map(f64::sqrt)).powi(2);
-            third_moment += sum(&expected.third_moment[pixel].map(|moment| moment.max(0.0).cbrt())).powi(3);
+            reference_variance += sum(&expected.error[pixel]).powi(2);
+            floor += sum(&expected.deviation[pixel]).powi(2);
+            third_moment += sum(&expected.asymmetry[pixel]).powi(3);
         }
         let skewness = if floor > 0.0 { third_moment / floor.powf(1.5) } else { 0.0 };
         Self {
@@ -178,11 +181,12 @@ pub fn smallest_of(count: usize, p: f64) -> f64 {
 /// The p-value of many independent p-values at once: the sum of the squares of the normal deviates that are as
 /// unlikely (χ²). It sees what is a little wrong everywhere.
 pub fn all_of(p_values: &[f64]) -> f64 {
-    let (Ok(normal), Ok(chi_squared)) = (Normal::new(0.0, 1.0), ChiSquared::new(p_values.len() as f64))
-    else {
-        return 1.0;
-    };
-    // A p-value of 0 would be an infinite deviate; this one is far enough out.
-    let deviate = |p: f64| normal.inverse_cdf(1.0 - 0.5 * p.clamp(1e-15, 1.0));
+    let Ok(chi_squared) = ChiSquared::new(p_values.len() as f64) else { return 1.0 };
     chi_squared.sf(p_values.iter().map(|&p| deviate(p).powi(2)).sum())
+}
+
+/// The normal deviate, from 0 on, that is as unlikely in either direction. A p-value of 0 would be an infinite one; what
+/// is given then is far enough out.
+pub fn deviate(p: f64) -> f64 {
+    Normal::new(0.0, 1.0).map_or(0.0, |normal| normal.inverse_cdf(1.0 - 0.5 * p.clamp(1e-15, 1.0)))
 }

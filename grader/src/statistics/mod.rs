@@ -6,6 +6,8 @@
 
 pub mod batches;
 pub mod bias;
+pub mod independence;
 pub mod regions;
 pub mod regression;
 pub mod sequential;
+pub mod variance;

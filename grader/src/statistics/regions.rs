@@ -18,8 +18,8 @@ pub struct Region {
     pub name: String,
     /// 2^level tiles stand beside each other.
     pub level: u32,
-    /// The weight of each pixel and channel.
-    pub weights: Vec<[f64; 3]>,
+    /// The pixels that take part, and the weights of their channels.
+    pub weights: Vec<(usize, [f64; 3])>,
     /// What is summed.
     pub kind: Kind,
 }
@@ -70,16 +70,10 @@ pub fn pyramid(width: u32, height: u32) -> Vec<Region> {
 pub fn weighted_image(expected: &Expected) -> Region {
     let luminance = |values: &[f64; 3]| -> f64 { (0..3).map(|c| LUMINANCE[c] * values[c]).sum() };
     let means: Vec<f64> = expected.mean.iter().map(luminance).collect();
-    let relative_variances: Vec<f64> = expected
-        .sample_variance
-        .iter()
-        .zip(&means)
-        .map(
-            |(variance, &mean)| {
-                if mean > 0.0 { (luminance(&variance.map(f64::sqrt)) / mean).powi(2) } else { 0.0 }
-            },
-        )
-        .collect();
+    let relative_variance = |(deviation, &mean): (&[f64; 3], &f64)| {
+        if mean > 0.0 { (luminance(deviation) / mean).powi(2) } else { 0.0 }
+    };
+    let relative_variances: Vec<f64> = expected.deviation.iter().zip(&means).map(relative_variance).collect();
     let mut sorted: Vec<f64> =
         relative_variances.iter().zip(&means).filter(|(_, mean)| **mean > 0.0).map(|(r2, _)| *r2).collect();
     sorted.sort_by(f64::total_cmp);
@@ -88,7 +82,11 @@ pub fn weighted_image(expected: &Expected) -> Region {
     let raw: Vec<f64> = relative_variances.iter().zip(&means).map(weight).collect();
     // As for a tile, the weights of a sum that has the mean of a grey image of that brightness.
     let total: f64 = raw.iter().sum::<f64>().max(f64::MIN_POSITIVE);
-    let weights = raw.iter().map(|weight| LUMINANCE.map(|channel| channel * weight / total)).collect();
+    let weights = raw
+        .iter()
+        .enumerate()
+        .map(|(pixel, weight)| (pixel, LUMINANCE.map(|channel| channel * weight / total)))
+        .collect();
     Region { name: "whole image".to_owned(), level: 0, weights, kind: Kind::Weighted }
 }
 
@@ -105,12 +103,9 @@ impl Tile {
         let range = |size: u32, index: u32| size * index / self.across..size * (index + 1) / self.across;
         let (columns, rows) = (range(self.width, self.column), range(self.height, self.row));
         let pixels = f64::from((columns.end - columns.start) * (rows.end - rows.start));
-        let mut weights = vec![[0.0; 3]; (self.width * self.height) as usize];
-        for y in rows.clone() {
-            for x in columns.clone() {
-                weights[(y * self.width + x) as usize] = channel.map(|weight| weight / pixels);
-            }
-        }
+        let weight = channel.map(|weight| weight / pixels);
+        let row = |y: u32| columns.clone().map(move |x| ((y * self.width + x) as usize, weight));
+        let weights = rows.clone().flat_map(row).collect();
         let place = match level {
             0 => "whole image".to_owned(),
             _ => format!("pixels {}–{} × {}–{}", columns.start, columns.end - 1, rows.start, rows.end - 1),
@@ -132,10 +127,10 @@ mod tests {
                 regions.iter().filter(|region| region.level == level && region.kind == Kind::Luminance);
             let mut cover = vec![0; 16 * 12];
             for region in luminances {
-                let sum: f64 = region.weights.iter().flatten().sum();
+                let sum: f64 = region.weights.iter().flat_map(|(_, weights)| weights).sum();
                 assert!((sum - 1.0).abs() < 1e-9, "{}", region.name);
-                for (count, weights) in cover.iter_mut().zip(&region.weights) {
-                    *count += u32::from(weights[1] > 0.0);
+                for (pixel, _) in &region.weights {
+                    cover[*pixel] += 1;
                 }
             }
             assert!(cover.iter().all(|&count| count == 1), "level {level}");

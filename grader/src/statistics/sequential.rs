@@ -9,7 +9,7 @@
 use arty::sampler::batch_seed;
 
 use super::batches::Batches;
-use super::bias::{Comparison, Expected, all_of, smallest_of};
+use super::bias::{Comparison, Expected, all_of, deviate, smallest_of};
 use super::regions::{Kind, LEVELS, Region};
 
 /// How often correct submissions may be flagged by screening, over everything that is looked at in one grade.
@@ -25,7 +25,7 @@ const BATCHES: u64 = 32;
 ///
 /// With four times as many samples, the confirmation of the last one takes 8,192 of each pixel: a sixteenth of what a
 /// reference has, so that the reference's own error does not matter.
-const LOOKS: [u64; 4] = [1, 4, 16, 64];
+pub const LOOKS: [u64; 4] = [1, 4, 16, 64];
 
 /// Looks before this one (counted from 0) are too early for a pass: small tiles see too little.
 const FIRST_PASS: usize = 1;
@@ -66,10 +66,14 @@ pub struct Judgement {
     pub kind: Kind,
     /// That region's last comparison.
     pub comparison: Comparison,
+    /// The last comparison of the whole image.
+    pub whole: Comparison,
     /// The smallest relative bias of the whole image that the samples would have shown.
     pub detectable: f64,
     /// Samples taken, over all pixels.
     pub samples: u64,
+    /// For each tile of the finest level (row by row from the top) how many standard errors its luminance was off.
+    pub z: Vec<f64>,
 }
 
 /// What to decide, and how surely.
@@ -87,12 +91,14 @@ pub struct Question<'a> {
     pub screening_level: f64,
     /// The seed of everything.
     pub seed: u64,
+    /// How many of the [`LOOKS`] may be taken.
+    pub looks: usize,
 }
 
 impl Question<'_> {
     /// The level at which one look flags a region.
     fn level_of_a_look(&self) -> f64 {
-        self.screening_level / LOOKS.len() as f64
+        self.screening_level / self.looks as f64
     }
 }
 
@@ -110,7 +116,7 @@ pub fn judge<E>(
     let mut batches = Batches::default();
     let mut taken = 0;
     let mut confirmation_samples = 0;
-    for (look, total) in LOOKS.into_iter().enumerate() {
+    for (look, total) in LOOKS.into_iter().take(question.looks).enumerate() {
         let demand = Demand { seeds: seeds.clone(), first_sample: taken, samples: total - taken };
         batches.extend(&render(&demand)?, demand.samples);
         taken = total;
@@ -120,8 +126,10 @@ pub fn judge<E>(
             region: region.name.clone(),
             kind: region.kind,
             comparison,
+            whole: screening.whole,
             detectable: screening.whole.detectable(CONFIRMATION_LEVEL),
             samples: (batches.samples_per_pixel() + confirmation_samples) * pixels,
+            z: screening.z.clone(),
         };
         if screening.p_value < question.level_of_a_look() {
             let demand = Demand {
@@ -144,7 +152,7 @@ pub fn judge<E>(
         if clear {
             return Ok(judgement(Decision::Unbiased, whole, screening.whole, confirmation_samples));
         }
-        if look + 1 == LOOKS.len() {
+        if look + 1 == question.looks.min(LOOKS.len()) {
             return Ok(judgement(Decision::Unclear, whole, screening.whole, confirmation_samples));
         }
     }
@@ -165,6 +173,8 @@ struct Screening {
     suspected_difference: f64,
     /// The region that has to be right for a pass.
     whole: Comparison,
+    /// The normal deviates of the finest tiles.
+    z: Vec<f64>,
 }
 
 impl Screening {
@@ -189,6 +199,7 @@ impl Screening {
         let tiles: Vec<usize> = (0..regions.len())
             .filter(|&i| regions[i].level == finest && regions[i].kind == Kind::Luminance)
             .collect();
+        let z = tiles.iter().map(|&i| deviate(p_values[i]) * comparisons[i].difference.signum()).collect();
         if tiles.len() > 1 {
             let p_value = all_of(&tiles.iter().map(|&i| p_values[i]).collect::<Vec<_>>());
             tests.push((p_value, pattern(regions, &comparisons, &tiles), 1.0));
@@ -204,22 +215,26 @@ impl Screening {
         };
         let (p_value, suspect, suspected_difference) =
             worst.unwrap_or_else(|| (1.0, regions[whole].clone(), 0.0));
-        Self { p_value: (count * p_value).min(1.0), suspect, suspected_difference, whole: comparisons[whole] }
+        Self {
+            p_value: (count * p_value).min(1.0),
+            suspect,
+            suspected_difference,
+            whole: comparisons[whole],
+            z,
+        }
     }
 }
 
 /// The sum of the tiles, each weighted by how far it was off: fresh samples of a true bias make it positive again.
 fn pattern(regions: &[Region], comparisons: &[Comparison], tiles: &[usize]) -> Region {
-    let mut weights = vec![[0.0; 3]; regions[0].weights.len()];
     let deviation = |i: usize| comparisons[i].t() * comparisons[i].difference.signum();
     let norm: f64 = tiles.iter().map(|&i| deviation(i).abs()).sum::<f64>().max(f64::MIN_POSITIVE);
-    for &i in tiles {
-        for (sum, weight) in weights.iter_mut().zip(&regions[i].weights) {
-            for (sum, weight) in sum.iter_mut().zip(weight) {
-                *sum += weight * deviation(i) / norm;
-            }
-        }
-    }
+    // Tiles of one level do not overlap.
+    let scaled = |i: usize| {
+        let factor = deviation(i) / norm;
+        regions[i].weights.iter().map(move |(pixel, weights)| (*pixel, weights.map(|weight| weight * factor)))
+    };
+    let weights = tiles.iter().flat_map(|&i| scaled(i)).collect();
     Region {
         name: "a pattern over all tiles".to_owned(),
         level: regions[tiles[0]].level,
@@ -258,9 +273,9 @@ mod tests {
     fn judge_exponential(factor: f64, corner_factor: f64, seed: u64) -> Judgement {
         let expected = Expected {
             mean: vec![[1.0; 3]; 256],
-            variance_of_mean: vec![[0.0; 3]; 256],
-            sample_variance: vec![[1.0; 3]; 256],
-            third_moment: vec![[2.0; 3]; 256],
+            error: vec![[0.0; 3]; 256],
+            deviation: vec![[1.0; 3]; 256],
+            asymmetry: vec![[2.0f64.cbrt(); 3]; 256],
         };
         let regions = pyramid(16, 16);
         let question = Question {
@@ -270,6 +285,7 @@ mod tests {
             tolerance: 0.02,
             screening_level: 0.01,
             seed,
+            looks: LOOKS.len(),
         };
         judge(&question, exponential(factor, corner_factor)).expect("it cannot fail")
     }

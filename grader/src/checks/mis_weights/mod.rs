@@ -17,12 +17,12 @@ use arty::sampler::Sampler;
 use host::protocol::{ProbeJob, ProbedPath};
 use serde::{Deserialize, Serialize};
 
-use crate::error::Result;
-use crate::host_process::{Fault, HostProcess};
-use crate::report::{Reason, Verdict};
+use super::{Bench, Stop};
+use crate::host_process::HostProcess;
+use crate::report::{CheckResult, Reason, Verdict};
 use crate::rubric::CheckSpec;
 use exponents::{EXPONENTS, Side};
-use scenes::{Configuration, Plan, draw};
+use scenes::{Configuration, MANY_LIGHTS, Plan, draw};
 
 /// What was found about the weights.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -52,12 +52,12 @@ const EXTREME: usize = 48;
 const CHAINS: usize = 24;
 
 /// The outcome, to be put into the check's result.
-pub(super) struct Outcome {
-    pub(super) verdict: Verdict,
-    pub(super) reason: Reason,
-    pub(super) explanation: String,
-    pub(super) weights: Option<Weights>,
-    pub(super) samples: u64,
+struct Outcome {
+    verdict: Verdict,
+    reason: Reason,
+    explanation: String,
+    weights: Option<Weights>,
+    samples: u64,
 }
 
 impl Outcome {
@@ -75,12 +75,17 @@ pub(super) struct Observation {
     error: f64,
 }
 
-/// Runs the check.
-pub(super) fn run(
-    process: &mut HostProcess,
-    spec: &CheckSpec,
-    seed: u64,
-) -> Result<std::result::Result<Outcome, Fault>> {
+pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult) -> Result<(), Stop> {
+    let outcome = observe_all(&mut bench.start()?, spec, bench.seed_of(spec))?;
+    result.verdict = outcome.verdict;
+    result.reason = outcome.reason;
+    result.explanation = outcome.explanation;
+    result.weights = outcome.weights;
+    result.samples = outcome.samples;
+    Ok(())
+}
+
+fn observe_all(process: &mut HostProcess, spec: &CheckSpec, seed: u64) -> Result<Outcome, Stop> {
     let mut random = Sampler::new(seed, (0, 0), 0);
     let mut configurations = Vec::new();
     let mut add = |count: usize, plan: Plan| {
@@ -97,34 +102,39 @@ pub(super) fn run(
     let settings = Settings { technique: spec.technique, max_bounces: spec.max_bounces + 2 };
     let mut samples = FEW;
     loop {
-        let mut ask = |scenes: Vec<_>| process.probe(&ProbeJob { settings, scenes, samples, seed });
+        let mut ask =
+            |scenes: Vec<_>| process.probe(&ProbeJob { settings, scenes, samples, seed, stratified: false });
         let mut observations = Vec::new();
         let mut varies = false;
-        for (_, configuration) in &configurations {
+        // Who asks every light picks none: then the density of a light sample has no probability of the pick in it.
+        let mut all_asked = true;
+        for (vertices, configuration) in &configurations {
             let scenes = vec![configuration.light_side.clone(), configuration.bsdf_side.clone()];
-            let paths = match ask(scenes)? {
-                Ok(paths) => paths,
-                Err(fault) => return Ok(Err(fault)),
-            };
+            let paths = ask(scenes)??;
+            if *vertices == 1 && configuration.lights == MANY_LIGHTS {
+                all_asked &= paths[0].iter().all(|path| path.light_samples as usize >= MANY_LIGHTS);
+            }
             match observe(configuration, &paths) {
                 Ok(observation) => {
                     varies |= observation.error > 0.01 * TOLERATED;
                     observations.push(observation);
                 }
-                Err(explanation) => return Ok(Ok(Outcome::fail(Reason::Numerics, explanation))),
+                Err(explanation) => return Ok(Outcome::fail(Reason::Numerics, explanation)),
             }
         }
         if varies && samples < MANY {
             samples = MANY;
             continue;
         }
-        let special = match special::complaint(process, settings, samples, seed)? {
-            Ok(complaint) => complaint,
-            Err(fault) => return Ok(Err(fault)),
-        };
+        let special = special::complaint(process, settings, samples, seed)?;
+        if all_asked {
+            for (_, configuration) in &mut configurations {
+                configuration.p_light *= configuration.lights as f64;
+            }
+        }
         let mut outcome = judge(&configurations, &observations, special);
         outcome.samples = samples * 2 * configurations.len() as u64;
-        return Ok(Ok(outcome));
+        return Ok(outcome);
     }
 }
 

@@ -55,6 +55,9 @@ pub(super) struct Configuration {
 /// How far, relative to the distance, light points are from the middle of their light.
 const HALF: f32 = 0.05;
 
+/// The most lights in a configuration: more than the hit points of a path with one vertex.
+pub(super) const MANY_LIGHTS: usize = 5;
+
 /// Draws a configuration; again until rays confirm that it is as it should be.
 pub(super) fn draw(plan: Plan, random: &mut Sampler) -> Configuration {
     loop {
@@ -71,7 +74,7 @@ pub(super) fn draw(plan: Plan, random: &mut Sampler) -> Configuration {
 
 fn attempt(plan: Plan, random: &mut Sampler) -> Configuration {
     let mut between = |low: f32, high: f32| low + (high - low) * random.next_1d();
-    let lights = [1, 2, 5][between(0.0, 3.0) as usize % 3];
+    let lights = [1, 2, MANY_LIGHTS][between(0.0, 3.0) as usize % 3];
     let d = between(-plan.distances, plan.distances).exp();
     let cos_light = between(plan.least_cos.ln(), 0.0).exp();
     let cos = between(plan.least_cos.ln(), 0.85f32.ln()).exp();

@@ -8,8 +8,8 @@ use arty::scene::{
 use host::protocol::{ProbeJob, ScriptedBsdf, ScriptedLight, ScriptedScene};
 
 use super::{NOISE, TOLERATED, mean_and_error};
-use crate::error::Result;
-use crate::host_process::{Fault, HostProcess};
+use crate::checks::Stop;
+use crate::host_process::HostProcess;
 
 /// The first of these lights that does not count whole, in words.
 pub(super) fn complaint(
@@ -17,28 +17,31 @@ pub(super) fn complaint(
     settings: Settings,
     samples: u64,
     seed: u64,
-) -> Result<std::result::Result<Option<String>, Fault>> {
+) -> Result<Option<String>, Stop> {
     let cases = [
         ("a light that the camera sees", seen_by_camera(), 1.0),
         ("a light that is hit after a delta bounce", after_delta(), 1.0),
         ("a light without an area", point_light(), 1.0),
     ];
     for (name, scene, expected) in cases {
-        let paths = match process.probe(&ProbeJob { settings, scenes: vec![scene], samples, seed })? {
-            Ok(paths) => paths,
-            Err(fault) => return Ok(Err(fault)),
-        };
+        let paths = process.probe(&ProbeJob {
+            settings,
+            scenes: vec![scene],
+            samples,
+            seed,
+            stratified: false,
+        })??;
         let Some((mean, error)) = mean_and_error(&paths[0]) else {
-            return Ok(Ok(Some(format!("{name} gives NaN or infinity"))));
+            return Ok(Some(format!("{name} gives NaN or infinity")));
         };
         if (mean - expected).abs() > TOLERATED + NOISE * error {
             let complaint = format!(
                 "{name} has the weight {mean:.3}; it can be found in one way only, so it should be 1"
             );
-            return Ok(Ok(Some(complaint)));
+            return Ok(Some(complaint));
         }
     }
-    Ok(Ok(None))
+    Ok(None)
 }
 
 /// The camera looks straight at the light.

@@ -1,0 +1,108 @@
+//! Recorded samples to draw from.
+
+use arty::integrator::Settings;
+use arty::sampler::{Sampler, batch_seed};
+use arty::scene::SceneDescription;
+use host::protocol::{RenderJob, Switches};
+
+use crate::build::HandInProgram;
+use crate::error::{Error, Result};
+use crate::host_process::HostProcess;
+use crate::reference::SIZE;
+use crate::statistics::sequential::Demand;
+
+/// Images of one sample each.
+pub struct Pool {
+    images: Vec<Vec<[f32; 3]>>,
+}
+
+/// Images that one job asks for.
+const PER_JOB: u64 = 1024;
+
+impl Pool {
+    /// Renders `count` images of one sample.
+    ///
+    /// # Errors
+    /// If the program is not as correct as it is said to be: it must not crash.
+    pub fn record(
+        program: &HandInProgram,
+        scene: &SceneDescription,
+        settings: Settings,
+        switches: Switches,
+        count: u64,
+        threads: usize,
+        seed: u64,
+    ) -> Result<Self> {
+        let faulty = |fault| Error::Harness(format!("a correct variant: {fault}"));
+        let mut process = HostProcess::start(program, threads)?;
+        let scene = process.load(scene)?.map_err(faulty)?;
+        let mut images = Vec::new();
+        for first in (0..count).step_by(PER_JOB as usize) {
+            let seeds = (first..count.min(first + PER_JOB)).map(|batch| batch_seed(seed, batch)).collect();
+            let job = RenderJob {
+                scene,
+                settings,
+                width: SIZE.0,
+                height: SIZE.1,
+                seeds,
+                first_sample: 0,
+                samples: 1,
+                switches,
+            };
+            images.extend(process.render(&job)?.map_err(faulty)?.batches);
+        }
+        Ok(Self { images })
+    }
+
+    /// The mean of each pixel: the truth for everything that is drawn from the pool.
+    pub fn mean(&self) -> Vec<[f64; 3]> {
+        let mut sums = vec![[0.0; 3]; self.images.first().map_or(0, Vec::len)];
+        for image in &self.images {
+            for (sum, value) in sums.iter_mut().flatten().zip(image.iter().flatten()) {
+                *sum += f64::from(*value);
+            }
+        }
+        let count = self.images.len().max(1) as f64;
+        sums.into_iter().map(|sum| sum.map(|sum| sum / count)).collect()
+    }
+
+    /// The batches that are wanted, from images picked at random, `1 + bias` times as bright.
+    pub fn draw(&self, demand: &Demand, bias: f64) -> Vec<Vec<[f32; 3]>> {
+        let scale = ((1.0 + bias) / demand.samples as f64) as f32;
+        let batch = |&seed: &u64| {
+            // A batch's numbers go on where those of its samples before ended.
+            let mut random = Sampler::new(seed, (0, 0), demand.first_sample);
+            let mut sum = vec![[0.0f32; 3]; self.images.first().map_or(0, Vec::len)];
+            for _ in 0..demand.samples {
+                let pick = (random.next_1d() * self.images.len() as f32) as usize;
+                let Some(image) = self.images.get(pick) else { continue };
+                for (sum, value) in sum.iter_mut().flatten().zip(image.iter().flatten()) {
+                    *sum += value;
+                }
+            }
+            sum.iter_mut().flatten().for_each(|value| *value *= scale);
+            sum
+        };
+        demand.seeds.iter().map(batch).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_drawn_has_the_mean_of_the_pool() {
+        let images = (0..100).map(|i| vec![[i as f32, 2.0, 0.0]]).collect();
+        let pool = Pool { images };
+        assert_eq!(pool.mean(), [[49.5, 2.0, 0.0]]);
+        let demand = Demand { seeds: vec![1, 2], first_sample: 0, samples: 10_000 };
+        let drawn = pool.draw(&demand, 0.01);
+        assert_ne!(drawn[0], drawn[1]);
+        for batch in drawn {
+            // Deviation of the mean: 0.29. Beyond 5 of them once in a million.
+            assert!((f64::from(batch[0][0]) / 1.01 - 49.5).abs() < 1.5, "{batch:?}");
+            assert!((f64::from(batch[0][1]) - 2.02).abs() < 1e-3);
+        }
+    }
+}

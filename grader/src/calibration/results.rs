@@ -1,0 +1,109 @@
+//! What was counted, kept so that nothing is computed twice.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, Result};
+use crate::statistics::sequential::Decision;
+
+/// How judgements ended.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Counts {
+    /// All of them.
+    pub grades: u64,
+    /// Those that found a bias.
+    pub biased: u64,
+    /// Those that could not tell.
+    pub unclear: u64,
+    /// Paths that they took.
+    pub samples: u64,
+}
+
+impl Counts {
+    /// One judgement.
+    pub(super) fn of(decision: Decision, samples: u64) -> Self {
+        let is = |other| u64::from(decision == other);
+        Self { grades: 1, biased: is(Decision::Biased), unclear: is(Decision::Unclear), samples }
+    }
+
+    /// The sum of both.
+    #[must_use]
+    pub fn add(self, other: Self) -> Self {
+        Self {
+            grades: self.grades + other.grades,
+            biased: self.biased + other.biased,
+            unclear: self.unclear + other.unclear,
+            samples: self.samples + other.samples,
+        }
+    }
+}
+
+/// One check of one variant with one bias: a line of the file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Line {
+    /// Hash of all that the result depends on.
+    pub key: String,
+    /// The variant's name.
+    pub variant: String,
+    /// The check.
+    pub check: String,
+    /// How much too bright all samples were made.
+    pub bias: f64,
+    /// What came out.
+    pub counts: Counts,
+}
+
+/// A file of results, a JSON object a line.
+pub struct Results {
+    path: PathBuf,
+    lines: Vec<Line>,
+}
+
+impl Results {
+    /// Opens the file in a folder, which is made if it is not there.
+    ///
+    /// # Errors
+    /// If it is there and cannot be read.
+    pub fn open(folder: &Path) -> Result<Self> {
+        std::fs::create_dir_all(folder).map_err(|error| Error::file(folder, error))?;
+        let path = folder.join("resampled.jsonl");
+        let text = match std::fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
+            Err(error) => return Err(Error::file(&path, error)),
+        };
+        // A line that was cut off, or is of an older format, is a result to be computed again.
+        let lines = text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
+        Ok(Self { path, lines })
+    }
+
+    /// The result that is there already.
+    pub fn find(&self, key: &str, variant: &str, check: &str, bias: f64) -> Option<&Line> {
+        self.lines.iter().find(|line| {
+            line.key == key && line.variant == variant && line.check == check && line.bias == bias
+        })
+    }
+
+    /// All results of a key.
+    pub fn of<'a>(&'a self, key: &'a str) -> impl Iterator<Item = &'a Line> {
+        self.lines.iter().filter(move |line| line.key == key)
+    }
+
+    /// Adds a result, on the disk too.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn add(&mut self, line: Line) -> Result<()> {
+        let text = serde_json::to_string(&line).map_err(|error| Error::Harness(error.to_string()))?;
+        std::fs::OpenOptions::new()
+            .create(true)
+            .append(true)
+            .open(&self.path)
+            .and_then(|mut file| writeln!(file, "{text}"))
+            .map_err(|error| Error::file(&self.path, error))?;
+        self.lines.push(line);
+        Ok(())
+    }
+}

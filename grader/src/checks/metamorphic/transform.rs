@@ -1,0 +1,216 @@
+//! Changes of scenes that leave what is seen as it is.
+
+use arty::math::{Rgb, Vec3};
+use arty::scene::{LightDescription, Material, Mesh, MeshTriangle, SceneDescription, Specular};
+use glam::Quat;
+
+/// A similarity: turn, scale, then move.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::checks) struct Transform {
+    pub(in crate::checks) rotation: Quat,
+    pub(in crate::checks) scale: f32,
+    pub(in crate::checks) offset: Vec3,
+}
+
+impl Transform {
+    const NONE: Self = Self { rotation: Quat::IDENTITY, scale: 1.0, offset: Vec3::ZERO };
+
+    /// All lengths times a factor.
+    pub(super) fn scale(scale: f32) -> Self {
+        Self { scale, ..Self::NONE }
+    }
+
+    /// About no axis of the scene, by no round angle.
+    pub(super) fn turn() -> Self {
+        Self { rotation: Quat::from_axis_angle(Vec3::new(0.48, -0.6, 0.64), 2.3), ..Self::NONE }
+    }
+
+    /// By some scene sizes.
+    pub(super) fn shift() -> Self {
+        Self { offset: Vec3::new(17.0, -29.0, 41.0), ..Self::NONE }
+    }
+
+    /// The scene, moved as a whole. Point lights keep the irradiance that they give: their power grows with the square
+    /// of lengths.
+    pub(in crate::checks) fn apply(&self, scene: &SceneDescription) -> SceneDescription {
+        let point = |p: Vec3| self.rotation * p * self.scale + self.offset;
+        let vector = |v: Vec3| self.rotation * v;
+        let power = |power: Rgb| power * (self.scale * self.scale);
+        let mut moved = scene.clone();
+        moved.camera.eye = point(scene.camera.eye);
+        moved.camera.center = point(scene.camera.center);
+        moved.camera.up = vector(scene.camera.up);
+        for mesh in &mut moved.meshes {
+            mesh.positions.iter_mut().for_each(|position| *position = point(*position));
+            mesh.normals.iter_mut().for_each(|normal| *normal = vector(*normal).normalize());
+        }
+        for light in &mut moved.lights {
+            *light = match *light {
+                LightDescription::Point { position, power: watts } => {
+                    LightDescription::Point { position: point(position), power: power(watts) }
+                }
+                LightDescription::Spot { position, direction, inner, outer, power: watts } => {
+                    LightDescription::Spot {
+                        position: point(position),
+                        direction: vector(direction),
+                        inner,
+                        outer,
+                        power: power(watts),
+                    }
+                }
+                LightDescription::Triangle { vertices, radiance } => {
+                    LightDescription::Triangle { vertices: vertices.map(point), radiance }
+                }
+            };
+        }
+        moved
+    }
+}
+
+/// All lights `factor` times as bright.
+pub(super) fn brightened(scene: &SceneDescription, factor: f32) -> SceneDescription {
+    let mut brighter = scene.clone();
+    brighter.materials.iter_mut().for_each(|material| material.emission *= factor);
+    brighter.lights.iter_mut().for_each(|light| *emitted(light) *= factor);
+    brighter
+}
+
+fn emitted(light: &mut LightDescription) -> &mut Rgb {
+    match light {
+        LightDescription::Point { power, .. } | LightDescription::Spot { power, .. } => power,
+        LightDescription::Triangle { radiance, .. } => radiance,
+    }
+}
+
+/// Each flat triangle that is no light in four.
+pub(super) fn tessellated(scene: &SceneDescription) -> SceneDescription {
+    split_triangles(scene, |emits, triangle| !emits && triangle.normals.is_none(), quarters)
+}
+
+/// Each light in two: a point light as two of half the power, a triangle as its two halves.
+pub(super) fn lights_split(scene: &SceneDescription) -> SceneDescription {
+    let mut split = split_triangles(scene, |emits, _| emits, halves);
+    split.lights = scene.lights.iter().flat_map(|light| split_light(*light)).collect();
+    split
+}
+
+fn split_light(light: LightDescription) -> [LightDescription; 2] {
+    match light {
+        LightDescription::Point { .. } | LightDescription::Spot { .. } => {
+            let mut half = light;
+            *emitted(&mut half) *= 0.5;
+            [half, half]
+        }
+        LightDescription::Triangle { vertices: [a, b, c], radiance } => {
+            let middle = 0.5 * (a + b);
+            [[a, middle, c], [middle, b, c]].map(|vertices| LightDescription::Triangle { vertices, radiance })
+        }
+    }
+}
+
+type Pieces = Vec<[[f32; 3]; 3]>;
+
+/// The middles of the sides make four triangles; given and returned as weights of the three corners.
+fn quarters() -> Pieces {
+    let [a, b, c] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let [ab, bc, ca] = [[0.5, 0.5, 0.0], [0.0, 0.5, 0.5], [0.5, 0.0, 0.5]];
+    vec![[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+}
+
+fn halves() -> Pieces {
+    let [a, b, c] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let ab = [0.5, 0.5, 0.0];
+    vec![[a, ab, c], [ab, b, c]]
+}
+
+/// Replaces the triangles that are wanted by pieces. Corners are made for each piece anew.
+fn split_triangles(
+    scene: &SceneDescription,
+    wanted: impl Fn(bool, &MeshTriangle) -> bool,
+    pieces: fn() -> Pieces,
+) -> SceneDescription {
+    let mut split = scene.clone();
+    for (mesh, original) in split.meshes.iter_mut().zip(&scene.meshes) {
+        mesh.triangles.clear();
+        for triangle in &original.triangles {
+            let emits = !scene.materials[triangle.material as usize].emission.is_black();
+            // Interpolated normals of pieces would not be those of the whole.
+            if !wanted(emits, triangle) || triangle.normals.is_some() {
+                mesh.triangles.push(*triangle);
+                continue;
+            }
+            for piece in pieces() {
+                let corner = |weights: [f32; 3], mesh: &mut Mesh| {
+                    let mix = |values: &[Vec3; 3]| (0..3).map(|i| weights[i] * values[i]).sum::<Vec3>();
+                    mesh.positions.push(mix(&triangle.positions.map(|i| original.positions[i as usize])));
+                    if let Some(uvs) = triangle.uvs {
+                        let uvs = uvs.map(|i| original.uvs[i as usize]);
+                        mesh.uvs.push((0..3).map(|i| weights[i] * uvs[i]).sum());
+                    }
+                };
+                piece.into_iter().for_each(|weights| corner(weights, mesh));
+                let last_three = |length: usize| [3, 2, 1].map(|back| length as u32 - back);
+                mesh.triangles.push(MeshTriangle {
+                    positions: last_three(mesh.positions.len()),
+                    uvs: triangle.uvs.map(|_| last_three(mesh.uvs.len())),
+                    ..*triangle
+                });
+            }
+        }
+    }
+    split
+}
+
+/// Black triangles on all sides, where neither the camera nor any surface can be hidden by them.
+pub(super) fn with_things_beside(scene: &SceneDescription) -> SceneDescription {
+    let mut larger = scene.clone();
+    let points = scene.meshes.iter().flat_map(|mesh| &mesh.positions).copied();
+    let lights = scene.lights.iter().flat_map(|light| match *light {
+        LightDescription::Point { position, .. } | LightDescription::Spot { position, .. } => vec![position],
+        LightDescription::Triangle { vertices, .. } => vertices.to_vec(),
+    });
+    let all = points.chain(lights).chain([scene.camera.eye]);
+    let (low, high) =
+        all.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+    let (center, size) = (0.5 * (low + high), (high - low).max_element());
+    let material = larger.materials.len() as u32;
+    larger.materials.push(Material {
+        name: "beside".to_owned(),
+        diffuse: Rgb::BLACK,
+        diffuse_map: None,
+        specular: Specular::None,
+        emission: Rgb::BLACK,
+    });
+    let mut mesh = Mesh::default();
+    for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
+        for sign in [-1.5, 1.5] {
+            let (right, up) = (axis.any_orthonormal_vector(), axis.cross(axis.any_orthonormal_vector()));
+            let first = mesh.positions.len() as u32;
+            for (x, y) in [(-1.0, -0.7), (0.9, -0.5), (0.1, 0.8)] {
+                mesh.positions.push(center + size * (sign * axis + x * right + y * up));
+            }
+            let positions = [first, first + 1, first + 2];
+            mesh.triangles.push(MeshTriangle { positions, normals: None, uvs: None, material });
+        }
+    }
+    larger.meshes.push(mesh);
+    larger
+}
+
+/// Two scenes with every other light, of which the images add up to that of the whole; `None` with fewer than two lights.
+///
+/// A light that is out stays where it is, as a surface: only its emission goes.
+pub(super) fn lights_apart(scene: &SceneDescription) -> Option<[SceneDescription; 2]> {
+    let emits = |material: &Material| !material.emission.is_black();
+    let lights = scene.lights.len() + scene.materials.iter().filter(|material| emits(material)).count();
+    (lights >= 2).then(|| {
+        [0, 1].map(|part| {
+            let mut some = scene.clone();
+            let materials = some.materials.iter_mut().filter(|material| emits(material));
+            let emissions = materials.map(|material| &mut material.emission);
+            let all = some.lights.iter_mut().map(emitted).chain(emissions);
+            all.enumerate().filter(|(index, _)| index % 2 == part).for_each(|(_, light)| *light = Rgb::BLACK);
+            some
+        })
+    })
+}

@@ -1,0 +1,91 @@
+//! Random numbers that fill [0, 1) more evenly than chance would.
+
+use std::cell::Cell;
+
+/// The integrator's own numbers (not those that the framework draws) for one of many paths: the k-th number of all paths
+/// together has exactly one value in each of `count` equal strata, in an order that differs from k to k. So whatever
+/// share of the paths an integrator sends one way by comparing one number, that share is exact to 1 / `count`
+/// (McKay, Beckman, Conover, Technometrics 21(2), 1979).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Strata {
+    /// The number of the path, below `count`.
+    pub path: u32,
+    /// How many paths there are: a power of two, at most 2²⁰.
+    pub count: u32,
+    /// Decides the orders.
+    pub seed: u32,
+}
+
+thread_local! {
+    /// The strata of the path that this thread follows, and how many numbers it has taken.
+    static STRATA: Cell<Option<(Strata, u32)>> = const { Cell::new(None) };
+}
+
+/// From now on this thread's own numbers are those of these strata; as ever, for `None`.
+pub fn set_strata(strata: Option<Strata>) {
+    STRATA.set(strata.map(|strata| (strata, 0)));
+}
+
+/// Puts an own number into its stratum.
+#[inline]
+pub(crate) fn place(number: f32) -> f32 {
+    let Some((strata, taken)) = STRATA.get() else { return number };
+    STRATA.set(Some((strata, taken + 1)));
+    strata.place(taken, number)
+}
+
+impl Strata {
+    fn place(&self, dimension: u32, number: f32) -> f32 {
+        let place = (self.stratum(dimension) as f32 + number) / self.count as f32;
+        // Rounding must not make it 1.
+        place.min(1.0 - f32::EPSILON / 2.0)
+    }
+
+    /// A permutation of the paths, another one for each dimension: odd factors and shifts onto lower bits can be undone.
+    fn stratum(&self, dimension: u32) -> u32 {
+        let mask = self.count - 1;
+        let key =
+            (self.seed ^ dimension.wrapping_mul(0x9e37_79b9)).wrapping_mul(0x85eb_ca6b) ^ (self.seed >> 7);
+        let half = self.count.trailing_zeros().div_ceil(2).max(1);
+        let mut index = self.path;
+        for round in 0..3u32 {
+            let factor = key.rotate_left(11 * round) | 1;
+            index = index.wrapping_mul(factor).wrapping_add(key >> (3 + round)) & mask;
+            index ^= index >> half;
+        }
+        index & mask
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_stratum_has_one_path_in_an_order_that_differs() {
+        for count in [1, 2, 4, 64, 4096] {
+            let order = |dimension: u32| -> Vec<u32> {
+                (0..count).map(|path| Strata { path, count, seed: 7 }.stratum(dimension)).collect()
+            };
+            for dimension in 0..5 {
+                let mut seen = order(dimension);
+                seen.sort_unstable();
+                assert!(seen.iter().copied().eq(0..count), "{count} strata, dimension {dimension}");
+            }
+            assert!(count < 64 || order(0) != order(1) && order(1) != order(2));
+        }
+    }
+
+    #[test]
+    fn numbers_stay_below_one_and_come_back_as_ever_afterwards() {
+        let strata = Strata { path: 0, count: 1 << 20, seed: 3 };
+        for dimension in 0..1000 {
+            let number = strata.place(dimension, 1.0 - f32::EPSILON / 2.0);
+            assert!((0.0..1.0).contains(&number), "{number}");
+        }
+        set_strata(Some(strata));
+        assert_ne!(place(0.5), 0.5);
+        set_strata(None);
+        assert_eq!(place(0.5), 0.5);
+    }
+}
