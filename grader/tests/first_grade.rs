@@ -111,7 +111,7 @@ fn unsafe_code_does_not_compile() {
 }
 
 /// The one check that the following tests need.
-const ONE: &str = "mean-bias/point_plane/nee/1";
+const ONE: &str = "closed-form/point_grid/nee/1";
 
 /// The solution with a statement at the start of every path.
 fn with_statement(statement: &str) -> String {

@@ -104,7 +104,7 @@ impl Bench<'_> {
         let mut result = self.begin(task, spec);
         result.verdict = Verdict::Fail;
         result.reason = Reason::Timeout;
-        result.explanation = "not run, because an earlier check did not finish in time".to_owned();
+        result.explanation = "not run, because earlier checks did not finish in time".to_owned();
         result
     }
 
