@@ -9,6 +9,7 @@ use arty::scene::Scene;
 use crate::build::{Framework, HandInProgram, compile};
 use crate::checks::{Bench, JudgedScene};
 use crate::error::{Error, Result};
+use crate::host_process::HostProcess;
 use crate::plan;
 use crate::reference;
 use crate::report::{
@@ -16,8 +17,11 @@ use crate::report::{
     TaskResult, Verdict,
 };
 use crate::rubric::{CheckSpec, Rubric, Task};
+use crate::sandbox::{Limits, Machine};
+use crate::scan::scan;
 use crate::statistics::sequential::SCREENING_LEVEL;
 use crate::submission::Submission;
+use crate::text::clean;
 use crate::workspace::Workspace;
 
 /// What a grade is told beside the hand-in.
@@ -31,6 +35,8 @@ pub struct Options {
     pub threads: usize,
     /// Checks to run: by the name of the check, its kind, its scene, its technique or its task. All if empty.
     pub only: Vec<String>,
+    /// What the hand-in may use up.
+    pub limits: Limits,
 }
 
 /// Grades a hand-in. `on_check` is told of each check as it ends.
@@ -53,13 +59,17 @@ pub fn grade(
     let framework = Framework::build(workspace)?;
     let framework_time = framework_start.elapsed().as_secs_f64();
     let build_start = Instant::now();
-    let built = compile(&framework, &submission.source)?;
+    let built = compile(&framework, &submission.source, &options.limits)?;
     let build_time = build_start.elapsed().as_secs_f64();
 
     let run_start = Instant::now();
     let mut checks = Vec::new();
+    let possible = Machine::here().layers();
+    let mut sandbox = Sandbox::new(possible, possible, scan(&submission.source));
     let mut left_out = plan::left_out(&rubric, |name| scenes.get(name));
     if let Ok(program) = &built {
+        let host = HostProcess::start(program, options.threads)?.layers();
+        sandbox = Sandbox::new(program.layers, host, sandbox.findings);
         let bench = bench(program, &scenes, submission, options, rubric.checks().count());
         for (task, spec) in &selected {
             let judged = scenes.get(&spec.scene);
@@ -104,7 +114,7 @@ pub fn grade(
     Ok(Report {
         schema: SCHEMA.to_owned(),
         submission: SubmissionInfo {
-            path: submission.path.display().to_string(),
+            path: clean(&submission.path.display().to_string()),
             hash: submission.hash(),
             build_failure,
         },
@@ -121,7 +131,7 @@ pub fn grade(
             run: run_time,
             total: start.elapsed().as_secs_f64(),
         },
-        sandbox: Sandbox { level: "none".to_owned() },
+        sandbox,
         provenance,
     })
 }
