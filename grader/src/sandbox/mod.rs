@@ -23,6 +23,7 @@ use elsewhere as linux_or_not;
 use linux as linux_or_not;
 
 pub use grants::Grants;
+pub(crate) use grants::linker;
 pub use host::confine::Layers;
 pub use level::Level;
 pub(crate) use level::{both, missing};

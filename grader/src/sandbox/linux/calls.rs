@@ -3,8 +3,9 @@
 use host::confine::seccomp::denying;
 use seccompiler::BpfProgram;
 
-/// A filter that refuses them. Starting processes and changing files that are open must stay: rustc starts the linker,
-/// and the linker makes its output executable.
+/// A filter that refuses them. Starting processes must stay, and pairs of sockets: rustc starts the linker by them. So
+/// must changing the mode of a file that is open:
+/// the linker makes its output executable.
 pub(super) fn compiler_filter() -> Option<BpfProgram> {
     use libc::*;
 
@@ -34,7 +35,6 @@ pub(super) fn compiler_filter() -> Option<BpfProgram> {
         SYS_kcmp,
         // The network, and ways around this filter.
         SYS_socket,
-        SYS_socketpair,
         SYS_io_uring_setup,
         SYS_io_uring_enter,
         SYS_io_uring_register,
