@@ -6,8 +6,9 @@ use std::path::Path;
 use rustix::process::geteuid;
 use rustix::process::{Gid, Uid};
 use rustix::thread::{
-    CapabilitySet, CapabilitySets, configure_capability_in_ambient_set, set_capabilities,
-    set_keep_capabilities, set_thread_groups, set_thread_res_gid, set_thread_res_uid,
+    CapabilitiesSecureBits, CapabilitySet, CapabilitySets, configure_capability_in_ambient_set,
+    set_capabilities, set_capabilities_secure_bits, set_thread_groups, set_thread_res_gid,
+    set_thread_res_uid,
 };
 
 use super::super::Grants;
@@ -66,7 +67,10 @@ pub(super) struct Switch {
 /// Makes the calling thread the other user's, for good. It allocates nothing.
 pub(super) fn switch_user(switch: Switch) -> std::io::Result<()> {
     let (user, group) = (Uid::from_raw(NOBODY), Gid::from_raw(NOBODY));
-    set_keep_capabilities(switch.reads_all)?;
+    if switch.reads_all {
+        // Rights outlive the change, and count for `access`, too, by which gcc looks for its parts.
+        set_capabilities_secure_bits(CapabilitiesSecureBits::NO_SETUID_FIXUP)?;
+    }
     set_thread_groups(&[])?;
     set_thread_res_gid(group, group, group)?;
     set_thread_res_uid(user, user, user)?;
