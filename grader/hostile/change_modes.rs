@@ -8,10 +8,10 @@ impl PathTracer {
     pub fn new(_: Settings) -> Self {
         use std::os::unix::fs::{PermissionsExt, chown};
 
-        for path in ["hand-in", ".", "/tmp", "@ROOT@/README.md"] {
-            let open = std::fs::Permissions::from_mode(0o777);
-            assert!(std::fs::set_permissions(path, open).is_err(), "BREACH: mode of {path}");
-            assert!(chown(path, Some(0), Some(0)).is_err(), "BREACH: owner of {path}");
+        for (path, mode) in [("hand-in", 0o755), (".", 0o700), ("@ROOT@/README.md", 0o644)] {
+            let mode = std::fs::Permissions::from_mode(mode);
+            assert!(std::fs::set_permissions(path, mode).is_err(), "BREACH: mode of {path}");
+            assert!(chown(path, None, None).is_err(), "BREACH: owner of {path}");
         }
         assert!(std::env::set_current_dir("/").is_err(), "BREACH: folder");
         Self

@@ -2,7 +2,9 @@
 
 use arty::prelude::*;
 
-compile_error!("\u{1b}[2J\u{1b}]0;owned\u{7}\n::error file=a.rs,line=1::owned\n##[error]owned\n<script>alert(1)</script>");
+compile_error!(
+    "\u{1b}[2J\u{1b}]0;owned\u{7}\n::error file=a.rs,line=1::owned\n##[error]owned\n<script>alert(1)</script>"
+);
 
 pub struct PathTracer;
 

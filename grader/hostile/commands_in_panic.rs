@@ -12,6 +12,8 @@ impl PathTracer {
 
 impl Integrator for PathTracer {
     fn radiance(&self, _: &Scene, _: Ray, _: &mut Sampler) -> Rgb {
-        panic!("\u{1b}[2J\u{1b}]0;owned\u{7}\n::error file=a.rs::owned\n##[error]\r\u{202e}<script>alert(1)</script>")
+        panic!(
+            "\u{1b}[2J\u{1b}]0;owned\u{7}\n::error file=a.rs::owned\n##[error]\r\u{202e}<script>alert(1)</script>"
+        )
     }
 }

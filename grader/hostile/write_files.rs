@@ -8,7 +8,9 @@ impl PathTracer {
     pub fn new(_: Settings) -> Self {
         use std::fs;
 
-        for path in ["/tmp/arty-owned", "owned", "hand-in", "render_pt.rs", "/dev/shm/arty-owned", "@ROOT@/owned"] {
+        for path in
+            ["/tmp/arty-owned", "owned", "hand-in", "render_pt.rs", "/dev/shm/arty-owned", "@ROOT@/owned"]
+        {
             assert!(fs::write(path, "owned").is_err(), "BREACH: {path} is written");
             assert!(fs::remove_file(path).is_err(), "BREACH: {path} is removed");
             assert!(fs::create_dir(path).is_err(), "BREACH: {path} is made");

@@ -1,4 +1,4 @@
-//! Has other processes killed, by the one way that safe code has.
+//! Becomes another program, which could kill others.
 
 use arty::prelude::*;
 
@@ -8,7 +8,7 @@ impl PathTracer {
     pub fn new(_: Settings) -> Self {
         use std::os::unix::process::CommandExt;
 
-        let error = std::process::Command::new("/bin/kill").args(["-9", "-1"]).exec();
+        let error = std::process::Command::new("/bin/true").exec();
         assert!(error.raw_os_error().is_some(), "BREACH: another program took over");
         Self
     }

@@ -1,4 +1,4 @@
-//! Panics with a message that fills the memory.
+//! Panics with a message of millions of letters.
 
 use arty::prelude::*;
 
@@ -12,6 +12,6 @@ impl PathTracer {
 
 impl Integrator for PathTracer {
     fn radiance(&self, _: &Scene, _: Ray, _: &mut Sampler) -> Rgb {
-        panic!("{}", "x".repeat(1 << 28))
+        panic!("{}", "x".repeat(1 << 26))
     }
 }
