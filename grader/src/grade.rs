@@ -198,7 +198,7 @@ fn bench<'a>(
 
 /// A path as an argument for a shell.
 fn quote(path: &Path) -> String {
-    let text = path.display().to_string();
+    let text = clean(&path.display().to_string());
     let plain = |c: char| c.is_alphanumeric() || "/._-+@".contains(c);
     if text.chars().all(plain) { text } else { format!("'{}'", text.replace('\'', r"'\''")) }
 }

@@ -18,9 +18,9 @@ mod elsewhere;
 #[cfg(target_os = "linux")]
 mod linux;
 #[cfg(not(target_os = "linux"))]
-use elsewhere as linux_or_not;
+use elsewhere as system;
 #[cfg(target_os = "linux")]
-use linux as linux_or_not;
+use linux as system;
 
 pub use grants::Grants;
 pub(crate) use grants::linker;
@@ -28,6 +28,6 @@ pub use host::confine::Layers;
 pub use level::Level;
 pub(crate) use level::{both, missing};
 pub use limits::Limits;
-pub use linux_or_not::Machine;
-pub(crate) use linux_or_not::hand_over;
 pub(crate) use process::{Profile, end, prepare};
+pub use system::Machine;
+pub(crate) use system::hand_over;

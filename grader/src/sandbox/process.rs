@@ -5,7 +5,7 @@ use std::process::{Child, Command};
 
 use host::confine::Layers;
 
-use super::{Grants, Limits, linux_or_not};
+use super::{Grants, Limits, system};
 use crate::error::Result;
 
 /// What a process is for.
@@ -34,7 +34,7 @@ pub(crate) enum Profile<'a> {
 pub(crate) fn prepare(command: &mut Command, profile: Profile<'_>, limits: &Limits) -> Result<Layers> {
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(command, 0);
-    linux_or_not::confine(command, profile, limits)
+    system::confine(command, profile, limits)
 }
 
 /// Ends a process that was started so, and all that it has started. It is still to be waited for.
