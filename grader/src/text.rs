@@ -74,10 +74,9 @@ fn disarm_commands(text: &str) -> String {
     for line in disarmed.split('\n') {
         let start = line.len() - line.trim_start().len();
         let (blanks, rest) = line.split_at(start);
-        lines.push(if rest.starts_with("::") {
-            format!("{blanks}: :{}", &rest[2..])
-        } else {
-            line.to_owned()
+        lines.push(match rest.strip_prefix("::") {
+            Some(command) => format!("{blanks}: :{command}"),
+            None => line.to_owned(),
         });
     }
     lines.join("\n")
