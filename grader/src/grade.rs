@@ -9,6 +9,7 @@ use arty::scene::Scene;
 use crate::build::{Framework, HandInProgram, compile};
 use crate::checks::{Bench, JudgedScene};
 use crate::error::{Error, Result};
+use crate::host_process::HostProcess;
 use crate::plan;
 use crate::reference;
 use crate::report::{
@@ -16,8 +17,11 @@ use crate::report::{
     TaskResult, Verdict,
 };
 use crate::rubric::{CheckKind, CheckSpec, Rubric, Task};
+use crate::sandbox::{Limits, Machine};
+use crate::scan::scan;
 use crate::statistics::sequential::SCREENING_LEVEL;
 use crate::submission::Submission;
+use crate::text::clean;
 use crate::workspace::Workspace;
 
 /// What a grade is told beside the hand-in.
@@ -31,6 +35,8 @@ pub struct Options {
     pub threads: usize,
     /// Checks to run: by the name of the check, its kind, its scene, its technique or its task. All if empty.
     pub only: Vec<String>,
+    /// What the hand-in may use up.
+    pub limits: Limits,
 }
 
 /// Grades a hand-in. `on_check` is told of each check as it ends.
@@ -55,7 +61,7 @@ pub fn grade(
     let build_start = Instant::now();
     // Both at the same time: each keeps one processor busy.
     let (built, solution) = rayon::join(
-        || compile(&framework, &submission.source),
+        || compile(&framework, &submission.source, &options.limits),
         || solution(workspace, &framework, &selected),
     );
     let (built, solution) = (built?, solution?);
@@ -63,8 +69,12 @@ pub fn grade(
 
     let run_start = Instant::now();
     let mut checks = Vec::new();
+    let possible = Machine::here().layers();
+    let mut sandbox = Sandbox::new(possible, possible, scan(&submission.source));
     let mut left_out = plan::left_out(&scenes);
     if let Ok(program) = &built {
+        let host = HostProcess::start(program, options.threads)?.layers();
+        sandbox = Sandbox::new(program.layers, host, sandbox.findings);
         let bench = bench(program, solution.as_ref(), &scenes, submission, options, rubric.checks().count());
         for (task, spec) in &selected {
             if let Some(why) = plan::why_left_out(spec, scenes.get(&spec.scene), solution.is_some()) {
@@ -109,7 +119,7 @@ pub fn grade(
     Ok(Report {
         schema: SCHEMA.to_owned(),
         submission: SubmissionInfo {
-            path: submission.path.display().to_string(),
+            path: clean(&submission.path.display().to_string()),
             hash: submission.hash(),
             build_failure,
         },
@@ -126,7 +136,7 @@ pub fn grade(
             run: run_time,
             total: start.elapsed().as_secs_f64(),
         },
-        sandbox: Sandbox { level: "none".to_owned() },
+        sandbox,
         provenance,
     })
 }
@@ -191,7 +201,7 @@ fn solution(
         return Ok(None);
     }
     let source = std::fs::read_to_string(&path).map_err(|error| Error::file(&path, error))?;
-    match compile(framework, &source)? {
+    match compile(framework, &source, &Limits::default())? {
         Ok(program) => Ok(Some(program)),
         Err(failure) => Err(Error::file(&path, format!("does not compile:\n{}", failure.messages))),
     }
@@ -220,7 +230,7 @@ fn bench<'a>(
 
 /// A path as an argument for a shell.
 fn quote(path: &Path) -> String {
-    let text = path.display().to_string();
+    let text = clean(&path.display().to_string());
     let plain = |c: char| c.is_alphanumeric() || "/._-+@".contains(c);
     if text.chars().all(plain) { text } else { format!("'{}'", text.replace('\'', r"'\''")) }
 }

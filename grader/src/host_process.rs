@@ -1,33 +1,32 @@
 //! The process that runs a hand-in, seen from the grader.
 
 use std::borrow::Cow;
-use std::io::{BufReader, BufWriter};
-use std::process::{Child, ChildStdin, Command, Stdio};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::io::{BufReader, Write};
+use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::Duration;
 
 use arty::scene::SceneDescription;
 use host::protocol::{
-    ProbeJob, ProbedPath, RenderJob, Rendered, Request, Response, read_message, write_message,
+    ProbeJob, ProbedPath, RenderJob, Rendered, Request, Response, UNCONFINED, read_message, write_message,
 };
 use serde::{Deserialize, Serialize};
 
 use crate::build::HandInProgram;
 use crate::error::{Error, Result};
-
-/// The longest answer that is accepted, in bytes.
-const MAX_ANSWER: u32 = 256 << 20;
-
-/// How long the hand-in may take for one job: a million samples at most, for which a correct one needs less than a
-/// second.
-const JOB_TIME: Duration = Duration::from_secs(30);
+use crate::sandbox::{self, Layers, Profile};
+use crate::text::clean;
 
 /// A running hand-in.
+///
+/// On Linux it ends with the thread that has started it.
 pub struct HostProcess {
     child: Child,
-    requests: BufWriter<ChildStdin>,
+    requests: Sender<Vec<u8>>,
     responses: Receiver<std::io::Result<Option<Response>>>,
     scenes: u32,
+    job_time: Duration,
+    layers: Layers,
 }
 
 /// What a hand-in can do instead of answering. Each is a finding about it.
@@ -36,8 +35,8 @@ pub struct HostProcess {
 pub enum Fault {
     /// It panicked.
     Panic(String),
-    /// It did not answer in time.
-    Timeout,
+    /// It did not answer within this time.
+    Timeout(Duration),
     /// Its process ended.
     Crash(String),
     /// Its answer was not what was asked for.
@@ -48,7 +47,7 @@ impl std::fmt::Display for Fault {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Panic(message) => write!(f, "it panicked: {message}"),
-            Self::Timeout => write!(f, "it did not finish within {} s", JOB_TIME.as_secs()),
+            Self::Timeout(time) => write!(f, "it did not finish within {} s", time.as_secs()),
             Self::Crash(status) => write!(f, "its process ended early ({status})"),
             Self::Malformed(what) => write!(f, "its answer was not what was asked for ({what})"),
         }
@@ -59,31 +58,40 @@ impl std::fmt::Display for Fault {
 type Answer<T> = Result<std::result::Result<T, Fault>>;
 
 impl HostProcess {
-    /// Starts the program, with an empty environment, in a folder of its own.
+    /// Starts the program in a sandbox, with an empty environment, in a folder of its own.
     pub fn start(program: &HandInProgram, threads: usize) -> Result<Self> {
-        let mut child = Command::new(&program.executable)
+        let trouble = |error| Error::Harness(format!("the hand-in's program does not start: {error}"));
+        let limits = &program.limits;
+        let mut command = Command::new(&program.executable);
+        command
+            .args((!limits.sandbox).then_some(UNCONFINED))
             .env_clear()
             .env("RAYON_NUM_THREADS", threads.to_string())
             .current_dir(program.executable.parent().unwrap_or(&program.executable))
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             // What a hand-in prints is nobody's verdict.
-            .stderr(Stdio::null())
-            .spawn()
-            .map_err(|error| Error::Harness(format!("the hand-in's program does not start: {error}")))?;
-        let requests = BufWriter::new(child.stdin.take().expect("stdin is piped"));
-        let mut answers = BufReader::new(child.stdout.take().expect("stdout is piped"));
-        let (sender, responses) = channel();
-        std::thread::spawn(move || {
-            loop {
-                let message = read_message(&mut answers, MAX_ANSWER);
-                let last = !matches!(message, Ok(Some(_)));
-                if sender.send(message).is_err() || last {
-                    break;
-                }
+            .stderr(Stdio::null());
+        sandbox::prepare(&mut command, Profile::Host { threads }, limits)?;
+        let mut child = command.spawn().map_err(trouble)?;
+        let requests = send(child.stdin.take().expect("stdin is piped"));
+        let responses = receive(child.stdout.take().expect("stdout is piped"), limits.answer);
+        let job_time = limits.job_time;
+        let layers = Layers::default();
+        let mut process = Self { child, requests, responses, scenes: 0, job_time, layers };
+        match process.answer() {
+            Ok(Response::Started(layers)) => process.layers = layers,
+            Ok(_) => return Err(Error::Harness("the hand-in's program did not say that it is there".into())),
+            Err(fault) => {
+                return Err(Error::Harness(format!("the hand-in's program does not start: {fault}")));
             }
-        });
-        Ok(Self { child, requests, responses, scenes: 0 })
+        }
+        Ok(process)
+    }
+
+    /// How the process is confined: what held when it was tried, before any code of the hand-in.
+    pub fn layers(&self) -> Layers {
+        self.layers
     }
 
     /// Sends a scene, and gives the number by which jobs refer to it.
@@ -126,17 +134,24 @@ impl HostProcess {
     }
 
     fn ask(&mut self, request: &Request<'_>) -> Answer<Response> {
-        if write_message(&mut self.requests, request).is_err() {
-            return Ok(Err(self.crash()));
-        }
-        match self.responses.recv_timeout(JOB_TIME) {
-            Ok(Ok(Some(response))) => Ok(Ok(response)),
-            Ok(Ok(None)) | Err(RecvTimeoutError::Disconnected) => Ok(Err(self.crash())),
-            Ok(Err(error)) if error.kind() == std::io::ErrorKind::UnexpectedEof => Ok(Err(self.crash())),
-            Ok(Err(error)) => Ok(Err(Fault::Malformed(error.to_string()))),
+        let mut bytes = Vec::new();
+        write_message(&mut bytes, request)
+            .map_err(|error| Error::Harness(format!("a job cannot be sent: {error}")))?;
+        // If nobody takes it any more, there will be no answer either.
+        let _ = self.requests.send(bytes);
+        Ok(self.answer())
+    }
+
+    /// What the process says next, in time.
+    fn answer(&mut self) -> std::result::Result<Response, Fault> {
+        match self.responses.recv_timeout(self.job_time) {
+            Ok(Ok(Some(response))) => Ok(response),
+            Ok(Ok(None)) | Err(RecvTimeoutError::Disconnected) => Err(self.crash()),
+            Ok(Err(error)) if error.kind() == std::io::ErrorKind::UnexpectedEof => Err(self.crash()),
+            Ok(Err(error)) => Err(Fault::Malformed(clean(&error.to_string()))),
             Err(RecvTimeoutError::Timeout) => {
-                let _ = self.child.kill();
-                Ok(Err(Fault::Timeout))
+                sandbox::end(&mut self.child);
+                Err(Fault::Timeout(self.job_time))
             }
         }
     }
@@ -144,23 +159,63 @@ impl HostProcess {
     fn crash(&mut self) -> Fault {
         // The pipe may close a moment before the process is gone.
         std::thread::sleep(Duration::from_millis(20));
-        let _ = self.child.kill();
-        let status = self.child.wait().map_or_else(|error| error.to_string(), |status| status.to_string());
-        Fault::Crash(status)
+        sandbox::end(&mut self.child);
+        Fault::Crash(self.child.wait().map_or_else(|error| error.to_string(), describe))
     }
+}
+
+/// How a process ended, and what that may mean.
+fn describe(status: ExitStatus) -> String {
+    #[cfg(unix)]
+    if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
+        let abort = rustix::process::Signal::ABORT.as_raw();
+        let why = if signal == abort { ": out of memory, stack overflow, or it aborted itself" } else { "" };
+        return format!("{status}{why}");
+    }
+    status.to_string()
+}
+
+/// Has a thread write messages, so that a process that does not read them costs nobody else any time.
+fn send(mut pipe: ChildStdin) -> Sender<Vec<u8>> {
+    let (sender, messages) = channel::<Vec<u8>>();
+    std::thread::spawn(move || {
+        for message in messages {
+            if pipe.write_all(&message).is_err() {
+                break;
+            }
+        }
+    });
+    sender
+}
+
+/// Has a thread read messages of at most `limit` bytes.
+fn receive(pipe: ChildStdout, limit: u32) -> Receiver<std::io::Result<Option<Response>>> {
+    let (sender, responses) = channel();
+    std::thread::spawn(move || {
+        let mut answers = BufReader::new(pipe);
+        loop {
+            let message = read_message(&mut answers, limit);
+            let last = !matches!(message, Ok(Some(_)));
+            if sender.send(message).is_err() || last {
+                break;
+            }
+        }
+    });
+    responses
 }
 
 impl Drop for HostProcess {
     fn drop(&mut self) {
-        let _ = self.child.kill();
+        sandbox::end(&mut self.child);
         let _ = self.child.wait();
     }
 }
 
 fn unexpected<T>(response: Response) -> Answer<T> {
     match response {
-        Response::Panicked { message } => Ok(Err(Fault::Panic(message))),
+        Response::Panicked { message } => Ok(Err(Fault::Panic(clean(&message)))),
         Response::Rejected { message } => Err(Error::Harness(format!("the host rejected a job: {message}"))),
+        Response::Started(_) => Ok(Err(Fault::Malformed("it started anew".to_owned()))),
         Response::SceneReady => Ok(Err(Fault::Malformed("it only said that a scene is ready".to_owned()))),
         Response::Probed(_) => Ok(Err(Fault::Malformed("paths that nobody asked for".to_owned()))),
         Response::Rendered(_) => Ok(Err(Fault::Malformed("a rendering that nobody asked for".to_owned()))),

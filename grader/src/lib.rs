@@ -1,7 +1,7 @@
 //! Judges hand-ins: builds them, runs them apart, compares what they render with what is right, reports.
 //!
 //! The way of a hand-in: [`submission`] reads it, [`build`] makes a program of it, [`host_process`] runs that
-//! program, [`checks`] ask it for numbers and judge them with [`statistics`] against [`mod@reference`]s or closed
+//! program in a [`sandbox`], [`checks`] ask it for numbers and judge them with [`statistics`] against [`mod@reference`]s or closed
 //! forms, [`mod@grade`] turns verdicts into points by the [`rubric`], [`report`] says what was found. [`mutants`] holds all of it to
 //! hand-ins whose mistakes are known.
 
@@ -17,6 +17,9 @@ pub mod plan;
 pub mod reference;
 pub mod report;
 pub mod rubric;
+pub mod sandbox;
+pub mod scan;
 pub mod statistics;
 pub mod submission;
+pub mod text;
 pub mod workspace;

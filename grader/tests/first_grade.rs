@@ -7,6 +7,7 @@ use std::path::PathBuf;
 
 use grader::grade::{Options, grade};
 use grader::report::{Reason, Report, Verdict};
+use grader::sandbox::Limits;
 use grader::submission::Submission;
 use grader::workspace::Workspace;
 
@@ -25,6 +26,7 @@ fn grade_source(source: &str, only: &[&str]) -> Report {
         seed: 1,
         threads: 2,
         only: only.iter().map(|&name| name.to_owned()).collect(),
+        limits: Limits::default(),
     };
     grade(&workspace(), &submission, &options, |_| {}).expect("the harness works")
 }

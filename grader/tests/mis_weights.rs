@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use grader::grade::{Options, grade};
 use grader::report::{CheckResult, Reason, Verdict};
+use grader::sandbox::Limits;
 use grader::submission::Submission;
 use grader::workspace::Workspace;
 
@@ -23,6 +24,7 @@ fn check(changes: &[(&str, &str)]) -> CheckResult {
         seed: 1,
         threads: 1,
         only: vec!["mis-weights".to_owned()],
+        limits: Limits::default(),
     };
     let report = grade(&workspace, &submission, &options, |_| {}).expect("the harness works");
     assert!(report.submission.build_failure.is_none(), "{:?}", report.submission.build_failure);

@@ -8,6 +8,7 @@ use grader::grade::{Options, grade};
 use grader::mutants::{Kind, Variant, Variants, variants};
 use grader::report::Verdict;
 use grader::rubric::{CheckKind, Rubric};
+use grader::sandbox::Limits;
 use grader::submission::Submission;
 use grader::workspace::Workspace;
 
@@ -52,7 +53,7 @@ fn there_are_a_dozen_right_variants_and_no_two_variants_are_the_same() {
 fn every_variant_compiles() {
     let framework = Framework::build(&workspace()).expect("the framework builds");
     for variant in all().list {
-        if let Err(failure) = compile(&framework, &variant.source).expect("rustc runs") {
+        if let Err(failure) = compile(&framework, &variant.source, &Limits::default()).expect("rustc runs") {
             panic!("{}:\n{}", variant.id, failure.messages);
         }
     }
@@ -74,8 +75,13 @@ fn the_kill_matrix_is_about_the_variants_that_there_are() {
 
 fn verdict(variant: &Variant, check: &str) -> Verdict {
     let submission = Submission { path: format!("{}.rs", variant.id).into(), source: variant.source.clone() };
-    let options =
-        Options { assignment: "05-nee-mis".into(), seed: 1, threads: 2, only: vec![check.to_owned()] };
+    let options = Options {
+        assignment: "05-nee-mis".into(),
+        seed: 1,
+        threads: 2,
+        only: vec![check.to_owned()],
+        limits: Limits::default(),
+    };
     let report = grade(&workspace(), &submission, &options, |_| {}).expect("the harness works");
     assert_eq!(report.checks.len(), 1, "{check}");
     report.checks[0].verdict

@@ -8,8 +8,9 @@ use std::io::{self, Read, Write};
 use arty::integrator::Settings;
 use arty::math::Vec3;
 use arty::scene::SceneDescription;
-use serde::Deserialize;
-use serde::{Serialize, de::DeserializeOwned};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+
+use crate::confine::Layers;
 
 /// The longest message that is read, in bytes. Scenes are the longest: a million triangles take about 60 MB.
 pub const MAX_MESSAGE: u32 = 512 << 20;
@@ -107,9 +108,14 @@ pub struct ScriptedLight {
     pub pdf_area: f32,
 }
 
-/// An answer of the host: exactly one to each request.
+/// The argument with which the grader starts a host that does not lock itself in.
+pub const UNCONFINED: &str = "--unconfined";
+
+/// An answer of the host: exactly one to each request, after one that says that it is there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Response {
+    /// The host is ready for requests, and confined as it says; no code of the hand-in has run yet.
+    Started(Layers),
     /// The scene is built.
     SceneReady,
     /// The batches are rendered.

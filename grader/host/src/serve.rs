@@ -9,7 +9,8 @@ use std::sync::Mutex;
 use arty::integrator::{Integrator, Settings};
 use arty::scene::Scene;
 
-use crate::protocol::{MAX_MESSAGE, Request, Response, Switches, read_message, write_message};
+use crate::confine::{Layers, confine};
+use crate::protocol::{MAX_MESSAGE, Request, Response, Switches, UNCONFINED, read_message, write_message};
 use crate::{probe, render, stdio};
 
 /// Makes the hand-in's path tracer.
@@ -24,8 +25,14 @@ pub fn serve(constructor: Constructor) -> ExitCode {
             return ExitCode::from(3);
         }
     };
+    // No code of the hand-in has run so far. The staff may ask for a process without a sandbox: to measure what it costs.
+    let unconfined = std::env::args().nth(1).is_some_and(|argument| argument == UNCONFINED);
+    let layers = if unconfined { Layers::default() } else { confine() };
     keep_panic_messages();
-    match answer_all(constructor, &mut BufReader::new(input), &mut BufWriter::new(output)) {
+    let mut output = BufWriter::new(output);
+    let answered = write_message(&mut output, &Response::Started(layers))
+        .and_then(|()| answer_all(constructor, &mut BufReader::new(input), &mut output));
+    match answered {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("host: the pipe to the grader broke: {error}");
@@ -85,7 +92,7 @@ fn keep_panic_messages() {
             .location()
             .map_or(String::new(), |location| format!(" ({}:{})", location.file(), location.line()));
         if let Ok(mut first) = FIRST_PANIC.lock() {
-            first.get_or_insert_with(|| format!("{message}{place}"));
+            first.get_or_insert_with(|| format!("{}{place}", beginning(message)));
         }
     }));
 }
@@ -96,6 +103,15 @@ fn message_of(payload: &dyn Any) -> &str {
     text.or_else(|| payload.downcast_ref::<String>().map(String::as_str))
         .unwrap_or("a value that is not text")
 }
+
+/// As much of a message as anyone will read: it may be gigabytes.
+fn beginning(message: &str) -> &str {
+    let end = message.char_indices().nth(LONGEST_MESSAGE).map_or(message.len(), |(end, _)| end);
+    &message[..end]
+}
+
+/// Characters of a panic message that are passed on.
+const LONGEST_MESSAGE: usize = 2000;
 
 fn first_panic() -> String {
     FIRST_PANIC.lock().ok().and_then(|mut first| first.take()).unwrap_or_else(|| "(no message)".to_owned())

@@ -1,5 +1,6 @@
 //! One call of rustc: the hand-in, the fixed program around it, the framework.
 
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
@@ -9,6 +10,8 @@ use tempfile::TempDir;
 
 use super::Framework;
 use crate::error::{Error, Result};
+use crate::sandbox::{self, Layers, Limits, Profile};
+use crate::text::clean;
 
 /// The program around a hand-in.
 const PROGRAM: &str = include_str!("../../host/program/main.rs");
@@ -20,6 +23,10 @@ pub struct HandInProgram {
     pub executable: PathBuf,
     /// How long rustc took.
     pub compile_time: Duration,
+    /// What it may use up when it runs.
+    pub limits: Limits,
+    /// How rustc was confined.
+    pub layers: Layers,
     _folder: TempDir,
 }
 
@@ -32,9 +39,6 @@ pub struct BuildFailure {
     pub line: Option<u32>,
 }
 
-/// How long rustc may take. Constants can be computed at compile time for as long as one likes.
-const COMPILE_TIME: Duration = Duration::from_secs(30);
-
 /// A hand-in that compiles wherever compiling works at all.
 const EMPTY_HAND_IN: &str = "use arty::prelude::*;
 pub struct PathTracer;
@@ -44,28 +48,34 @@ impl Integrator for PathTracer {
 }
 ";
 
-/// Compiles the source of a hand-in. The outer error is the harness's, the inner one the hand-in's.
+/// Compiles the source of a hand-in, in a sandbox. The outer error is the harness's, the inner one the hand-in's.
 pub fn compile(
     framework: &Framework,
     source: &str,
+    limits: &Limits,
 ) -> Result<std::result::Result<HandInProgram, BuildFailure>> {
-    let failure = match compile_once(framework, source)? {
+    let failure = match compile_once(framework, source, limits, true)? {
         Ok(program) => return Ok(Ok(program)),
         Err(failure) => failure,
     };
     // No line of the hand-in is to blame: is it the machine? A missing linker, a full disk?
-    if failure.line.is_none()
-        && let Err(machine) = compile_once(framework, EMPTY_HAND_IN)?
-    {
-        let messages = machine.messages;
-        return Err(Error::Harness(format!("not even an empty hand-in compiles here:\n{messages}")));
+    if failure.line.is_some() || compile_once(framework, EMPTY_HAND_IN, limits, true)?.is_ok() {
+        return Ok(Err(failure));
     }
-    Ok(Err(failure))
+    // Or a toolchain whose files lie where the sandbox does not expect them? The report will tell its level.
+    match compile_once(framework, EMPTY_HAND_IN, limits, false)? {
+        Ok(_) => compile_once(framework, source, limits, false),
+        Err(BuildFailure { messages, .. }) => {
+            Err(Error::Harness(format!("not even an empty hand-in compiles here:\n{messages}")))
+        }
+    }
 }
 
 fn compile_once(
     framework: &Framework,
     source: &str,
+    limits: &Limits,
+    locked: bool,
 ) -> Result<std::result::Result<HandInProgram, BuildFailure>> {
     let trouble = |what: &str, error: std::io::Error| Error::Harness(format!("{what}: {error}"));
     let folder = tempfile::Builder::new()
@@ -76,37 +86,42 @@ fn compile_once(
         std::fs::write(folder.path().join(name), text)
             .map_err(|error| trouble("the hand-in cannot be copied", error))?;
     }
+    let messages = std::fs::File::create(folder.path().join(MESSAGES))
+        .map_err(|error| trouble("no file for rustc's messages", error))?;
+    sandbox::hand_over(folder.path())?;
+    let mut rustc = call(framework, folder.path());
+    rustc.stderr(messages);
+    let grants = &framework.grants;
+    let profile = Profile::Compiler { grants, folder: folder.path(), locked };
+    let layers = sandbox::prepare(&mut rustc, profile, limits)?;
     let start = Instant::now();
-    let status =
-        run_in_time(framework, folder.path()).map_err(|error| trouble("rustc could not be run", error))?;
+    let status = run_in_time(&mut rustc, limits.compile_time)
+        .map_err(|error| trouble("rustc could not be run", error))?;
     let compile_time = start.elapsed();
     let Some(status) = status else {
-        let messages = format!("rustc did not finish within {} s\n", COMPILE_TIME.as_secs());
+        let messages = format!("rustc did not finish within {} s\n", limits.compile_time.as_secs());
         return Ok(Err(BuildFailure { messages, line: None }));
     };
     if status.success() {
         let executable = folder.path().join(executable_name());
-        return Ok(Ok(HandInProgram { executable, compile_time, _folder: folder }));
+        let limits = *limits;
+        return Ok(Ok(HandInProgram { executable, compile_time, limits, layers, _folder: folder }));
     }
-    let messages = std::fs::read(folder.path().join(MESSAGES))
+    let messages = read_messages(&folder.path().join(MESSAGES))
         .map_err(|error| trouble("rustc's messages are gone", error))?;
-    Ok(Err(build_failure(&String::from_utf8_lossy(&messages), &status.to_string())))
+    Ok(Err(build_failure(&messages, &status.to_string())))
 }
 
-/// The file that rustc's messages go to: unlike a pipe it never fills up.
-const MESSAGES: &str = "messages.json";
-
 /// Runs rustc; `None` if it had to be ended.
-fn run_in_time(framework: &Framework, folder: &Path) -> std::io::Result<Option<ExitStatus>> {
-    let messages = std::fs::File::create(folder.join(MESSAGES))?;
-    let mut rustc = call(framework, folder).stderr(messages).spawn()?;
-    let deadline = Instant::now() + COMPILE_TIME;
+fn run_in_time(rustc: &mut Command, time: Duration) -> std::io::Result<Option<ExitStatus>> {
+    let mut rustc = rustc.spawn()?;
+    let deadline = Instant::now() + time;
     loop {
         if let Some(status) = rustc.try_wait()? {
             return Ok(Some(status));
         }
         if Instant::now() >= deadline {
-            rustc.kill()?;
+            sandbox::end(&mut rustc);
             rustc.wait()?;
             return Ok(None);
         }
@@ -114,9 +129,42 @@ fn run_in_time(framework: &Framework, folder: &Path) -> std::io::Result<Option<E
     }
 }
 
+/// The file that rustc's messages go to: unlike a pipe it never fills up.
+const MESSAGES: &str = "messages.json";
+
+/// The beginning of rustc's messages: as much as anyone will read.
+fn read_messages(file: &Path) -> std::io::Result<String> {
+    let mut bytes = Vec::new();
+    std::fs::File::open(file)?.take(LONGEST_MESSAGES).read_to_end(&mut bytes)?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// Bytes of rustc's messages that are looked at. The terminal's form of them is a quarter of it.
+const LONGEST_MESSAGES: u64 = 256 << 10;
+
 fn executable_name() -> String {
     format!("hand-in{}", std::env::consts::EXE_SUFFIX)
 }
+
+/// What rustc's call of the linker may need of the environment, on one system or another. `env!` can read no more.
+const KEPT: [&str; 14] = [
+    "PATH",
+    // macOS: where its developer tools are.
+    "DEVELOPER_DIR",
+    "SDKROOT",
+    // Windows: where its own libraries and the linker's are.
+    "SystemRoot",
+    "ProgramFiles",
+    "ProgramFiles(x86)",
+    "ProgramData",
+    "VCINSTALLDIR",
+    "LIB",
+    "LIBPATH",
+    "INCLUDE",
+    "TMP",
+    "TEMP",
+    "PATHEXT",
+];
 
 /// The call. No link-time optimisation: it would make a tenth of a second into several, for a tenth more speed.
 fn call(framework: &Framework, folder: &Path) -> Command {
@@ -127,8 +175,12 @@ fn call(framework: &Framework, folder: &Path) -> Command {
     };
     let mut dependencies = std::ffi::OsString::from("dependency=");
     dependencies.push(&framework.dependencies);
-    let mut command = super::framework::rustc();
+    let mut command = Command::new(&framework.rustc);
     command
+        .env_clear()
+        .envs(KEPT.iter().filter_map(|&name| Some((name, std::env::var_os(name)?))))
+        // The linker's intermediate files.
+        .env("TMPDIR", folder)
         .args(["main.rs", "--crate-name", "hand_in", "--edition", "2024", "--crate-type", "bin", "-o"])
         .arg(executable_name())
         .args(["-C", "opt-level=3", "-C", "codegen-units=1", "-C", "debuginfo=0", "-C", "strip=debuginfo"])
@@ -141,7 +193,6 @@ fn call(framework: &Framework, folder: &Path) -> Command {
         .arg("--extern")
         .arg(external("host", &framework.host))
         .current_dir(folder)
-        .env_remove("RUSTFLAGS")
         .stdin(Stdio::null());
     command
 }
@@ -182,5 +233,5 @@ fn build_failure(stderr: &str, status: &str) -> BuildFailure {
     if messages.is_empty() {
         messages = format!("rustc ended with {status} and said nothing\n");
     }
-    BuildFailure { messages, line }
+    BuildFailure { messages: clean(&messages), line }
 }

@@ -6,6 +6,7 @@ use std::process::{Command, Stdio};
 use serde::Deserialize;
 
 use crate::error::{Error, Result};
+use crate::sandbox::Grants;
 use crate::workspace::Workspace;
 
 /// The compiled libraries of the framework, as Cargo built them from this checkout.
@@ -21,6 +22,10 @@ pub struct Framework {
     pub dependencies: PathBuf,
     /// The compiler, as it names itself.
     pub toolchain: String,
+    /// The compiler's program.
+    pub rustc: PathBuf,
+    /// What the compiler needs to be granted.
+    pub grants: Grants,
 }
 
 /// The part of Cargo's messages that names what was built.
@@ -70,7 +75,16 @@ impl Framework {
         let (arty, host) = (library("arty")?, library("host")?);
         // Cargo names the copy beside the profile's programs; the libraries it needs lie in `deps`.
         let dependencies = dependencies_folder(&arty);
-        Ok(Self { arty, host, dependencies, toolchain: toolchain()? })
+        let toolchain = ask_rustc("--version")?;
+        let sysroot = PathBuf::from(ask_rustc("--print=sysroot")?);
+        // Past the one that only looks up which compiler is meant.
+        let rustc = Some(sysroot.join("bin").join(format!("rustc{}", std::env::consts::EXE_SUFFIX)))
+            .filter(|rustc| rustc.is_file())
+            .unwrap_or_else(named_rustc);
+        let libraries = [Some(dependencies.as_path()), arty.parent(), host.parent()];
+        let libraries: Vec<&Path> = libraries.into_iter().flatten().collect();
+        let grants = Grants::of_toolchain(&rustc, &sysroot, &libraries);
+        Ok(Self { arty, host, dependencies, toolchain, rustc, grants })
     }
 }
 
@@ -87,18 +101,18 @@ impl Framework {
     }
 }
 
-/// The first line of `rustc --version`.
-fn toolchain() -> Result<String> {
-    let output = rustc()
-        .arg("--version")
+/// What rustc answers to a question about itself.
+fn ask_rustc(question: &str) -> Result<String> {
+    let output = Command::new(named_rustc())
+        .arg(question)
         .output()
         .map_err(|error| Error::Harness(format!("rustc could not be run: {error}")))?;
     Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
 
 /// The compiler that Cargo would use.
-pub(super) fn rustc() -> Command {
-    Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()))
+fn named_rustc() -> PathBuf {
+    std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()).into()
 }
 
 fn dependencies_folder(library: &Path) -> PathBuf {

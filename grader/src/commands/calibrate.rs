@@ -15,6 +15,7 @@ use crate::error::{Error, Result};
 use crate::grade::Options;
 use crate::mutants::{Kind, Ledger, Record, Variant, hash_of_inputs, variants};
 use crate::rubric::{CheckKind, CheckSpec, Hits, Rubric};
+use crate::sandbox::Limits;
 use crate::statistics::sequential::SCREENING_LEVEL;
 use crate::workspace::Workspace;
 
@@ -115,7 +116,7 @@ impl Calibration<'_> {
         let bar = ProgressBar::new((checks.len() * self.right.len()) as u64);
         let mut scenes = BTreeMap::new();
         for (number, variant) in self.right.iter().enumerate() {
-            let program = match compile(&framework, &variant.source)? {
+            let program = match compile(&framework, &variant.source, &Limits::default())? {
                 Ok(program) => program,
                 Err(failure) => return Err(Error::Harness(format!("{}: {}", variant.id, failure.messages))),
             };
@@ -187,6 +188,7 @@ impl Calibration<'_> {
                 seed: 1 + number / self.right.len() as u64,
                 threads: self.threads,
                 only: Vec::new(),
+                limits: Limits::default(),
             };
             self.ledger.grade(self.workspace, variant, &options)?;
             bar.inc(1);

@@ -8,6 +8,7 @@ use arty::image::check_writable;
 use crate::error::{Error, Result};
 use crate::grade::{Options, grade};
 use crate::report::{print_check, print_summary};
+use crate::sandbox::Limits;
 use crate::submission::Submission;
 use crate::workspace::Workspace;
 
@@ -46,6 +47,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         seed: arguments.seed,
         threads,
         only: arguments.only.clone(),
+        limits: Limits::default(),
     };
     let file = arguments.out.join("report.json");
     std::fs::create_dir_all(&arguments.out).map_err(|error| Error::file(&arguments.out, error))?;

@@ -1,6 +1,7 @@
 //! The commands of the program.
 
 mod calibrate;
+mod doctor;
 mod figures;
 mod grade;
 mod mutants;
@@ -26,6 +27,8 @@ enum Command {
     Grade(grade::Arguments),
     /// Measure how often correct hand-ins fail, and how small an error is found (for staff).
     Calibrate(calibrate::Arguments),
+    /// Tell what this machine gives for grading: compiler, linker, sandbox, and how to get a better one.
+    Doctor(doctor::Arguments),
     /// Render the figures of the sheet with the solution (for staff).
     Figures(figures::Arguments),
     /// Grade wrong and right variants of the solution: what is caught, and what is not (for staff).
@@ -42,6 +45,7 @@ pub fn run() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Grade(arguments) => grade::run(&arguments),
         Command::Calibrate(arguments) => calibrate::run(&arguments),
+        Command::Doctor(arguments) => doctor::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Mutants(arguments) => mutants::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),

@@ -7,6 +7,7 @@ use crate::error::{Error, Result};
 use crate::grade::Options;
 use crate::mutants::{Ledger, Outcome, Record, Variant, table, variants};
 use crate::rubric::Rubric;
+use crate::sandbox::Limits;
 use crate::workspace::Workspace;
 
 /// Grade wrong and right variants of the solution, and say which mistakes are caught (for staff).
@@ -47,7 +48,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     for (index, variant) in selected.iter().enumerate() {
         for seed in 1..=arguments.seeds {
             let assignment = arguments.assignment.clone();
-            let options = Options { assignment, seed, threads, only: Vec::new() };
+            let limits = Limits::default();
+            let options = Options { assignment, seed, threads, only: Vec::new(), limits };
             ledger.grade(&workspace, variant, &options)?;
         }
         let records = ledger.records(variant);

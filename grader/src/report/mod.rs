@@ -12,6 +12,8 @@ use crate::build::BuildFailure;
 use crate::checks::Weights;
 use crate::error::Result;
 use crate::rubric::CheckKind;
+use crate::sandbox::{Layers, Level, both, missing};
+use crate::scan::Finding;
 
 pub use terminal::{print_check, print_summary};
 
@@ -251,8 +253,25 @@ pub struct Cost {
 /// How the hand-in was confined.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Sandbox {
-    /// `none`: a process of its own, and nothing more.
-    pub level: String,
+    /// How well, in one word: what compiler and host have in common.
+    pub level: Level,
+    /// What is missing for the best level, in a sentence; empty if nothing is.
+    pub missing: String,
+    /// What held for rustc.
+    pub compiler: Layers,
+    /// What held for the program, as it found out itself before any code of the hand-in ran. For a hand-in that does
+    /// not compile, what this machine has.
+    pub host: Layers,
+    /// What the hand-in names that the sandbox refuses. It costs no points by itself.
+    pub findings: Vec<Finding>,
+}
+
+impl Sandbox {
+    /// What these layers come to.
+    pub fn new(compiler: Layers, host: Layers, findings: Vec<Finding>) -> Self {
+        let layers = both(compiler, host);
+        Self { level: Level::of(layers), missing: missing(layers).join(", "), compiler, host, findings }
+    }
 }
 
 impl Report {

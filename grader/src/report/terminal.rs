@@ -6,6 +6,8 @@ use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
 use comfy_table::{Cell, CellAlignment, Color, ContentArrangement, Table};
 
 use super::{CheckResult, Report, TaskResult, Verdict};
+use crate::sandbox::Level;
+use crate::scan::Finding;
 
 /// One line for a check, as soon as it has ended.
 pub fn print_check(check: &CheckResult) {
@@ -59,6 +61,12 @@ fn write_summary(out: &mut impl Write, report: &Report) -> io::Result<()> {
     )?;
     for task in &report.tasks {
         write_failures(out, task, report)?;
+    }
+    for Finding { line, what, why, .. } in &report.sandbox.findings {
+        writeln!(out, "violation: render_pt.rs:{line}: {what}: {why}; the sandbox refuses it")?;
+    }
+    if report.sandbox.level < Level::Strong {
+        writeln!(out, "sandbox: {}: {} (grader doctor)", report.sandbox.level, report.sandbox.missing)?;
     }
     Ok(())
 }

@@ -1,0 +1,19 @@
+//! Never ends.
+
+use arty::prelude::*;
+
+pub struct PathTracer;
+
+impl PathTracer {
+    pub fn new(_: Settings) -> Self {
+        Self
+    }
+}
+
+impl Integrator for PathTracer {
+    fn radiance(&self, _: &Scene, _: Ray, _: &mut Sampler) -> Rgb {
+        loop {
+            std::hint::spin_loop();
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! Answers with what is no number.
+
+use arty::prelude::*;
+
+pub struct PathTracer;
+
+impl PathTracer {
+    pub fn new(_: Settings) -> Self {
+        Self
+    }
+}
+
+impl Integrator for PathTracer {
+    fn radiance(&self, _: &Scene, _: Ray, _: &mut Sampler) -> Rgb {
+        Rgb::gray(f32::NAN)
+    }
+}

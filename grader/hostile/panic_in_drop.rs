@@ -1,0 +1,23 @@
+//! Panics when it is dropped.
+
+use arty::prelude::*;
+
+impl Drop for PathTracer {
+    fn drop(&mut self) {
+        panic!("dropped");
+    }
+}
+
+pub struct PathTracer;
+
+impl PathTracer {
+    pub fn new(_: Settings) -> Self {
+        Self
+    }
+}
+
+impl Integrator for PathTracer {
+    fn radiance(&self, _: &Scene, _: Ray, _: &mut Sampler) -> Rgb {
+        Rgb::BLACK
+    }
+}

@@ -1,0 +1,20 @@
+//! Takes a module from elsewhere.
+
+use arty::prelude::*;
+
+#[path = "/etc/passwd"]
+mod stolen;
+
+pub struct PathTracer;
+
+impl PathTracer {
+    pub fn new(_: Settings) -> Self {
+        Self
+    }
+}
+
+impl Integrator for PathTracer {
+    fn radiance(&self, _: &Scene, _: Ray, _: &mut Sampler) -> Rgb {
+        Rgb::BLACK
+    }
+}

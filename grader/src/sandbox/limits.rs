@@ -1,0 +1,34 @@
+//! How much a hand-in may use up.
+
+use std::time::Duration;
+
+/// What compiling and running a hand-in may take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Time for rustc, by the clock on the wall. Constants can be computed at compile time for as long as one likes.
+    pub compile_time: Duration,
+    /// Address space of rustc and of the linker, each, in bytes. With too little, rustc's messages mislead.
+    pub compile_memory: u64,
+    /// Time for one job, by the clock on the wall: a million samples at most, for which a correct hand-in needs less
+    /// than a second.
+    pub job_time: Duration,
+    /// Address space of the host, in bytes, beside what its threads reserve without using it.
+    pub job_memory: u64,
+    /// The longest answer that is accepted, in bytes.
+    pub answer: u32,
+    /// False only to measure what the sandbox costs: files and system calls are not locked away then.
+    pub sandbox: bool,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            compile_time: Duration::from_secs(30),
+            compile_memory: 4 << 30,
+            job_time: Duration::from_secs(30),
+            job_memory: 4 << 30,
+            answer: 256 << 20,
+            sandbox: true,
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! Hand-ins that attack: what becomes of each, and that nobody else is harmed.
+#![cfg(target_os = "linux")]
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use arty::integrator::{Settings, Technique};
+use arty::scene::SceneDescription;
+use grader::build::{Framework, HandInProgram, compile};
+use grader::grade::{Options, grade};
+use grader::host_process::HostProcess;
+use grader::report::{Reason, Report, Verdict};
+use grader::sandbox::{Level, Limits, Machine};
+use grader::submission::Submission;
+use grader::workspace::Workspace;
+use host::protocol::{RenderJob, Switches};
+use serde::Deserialize;
+
+/// The index of the corpus.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Index {
+    hand_ins: Vec<Attack>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Attack {
+    file: String,
+    threat: String,
+    outcome: Outcome,
+    #[serde(default)]
+    says: String,
+}
+
+/// What must become of a hand-in; the index says what each means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Outcome {
+    Build,
+    Black,
+    Wrong,
+    Crash,
+    Timeout,
+    Numerics,
+    Any,
+}
+
+/// The one check that all of them are held to.
+const CHECK: &str = "mean-bias/point_plane/nee/1";
+
+/// Short, so that those that never end do so soon.
+fn limits() -> Limits {
+    Limits {
+        compile_time: Duration::from_secs(8),
+        compile_memory: 2 << 30,
+        job_time: Duration::from_secs(5),
+        job_memory: 512 << 20,
+        ..Limits::default()
+    }
+}
+
+fn workspace() -> Workspace {
+    Workspace::find().expect("the tests run inside the checkout")
+}
+
+fn grade_source(workspace: &Workspace, source: String) -> Report {
+    let submission = Submission { path: PathBuf::from("render_pt.rs"), source };
+    let options = Options {
+        assignment: "05-nee-mis".to_owned(),
+        seed: 1,
+        threads: 2,
+        only: vec![CHECK.to_owned()],
+        limits: limits(),
+    };
+    grade(workspace, &submission, &options, |_| {}).expect("no hand-in makes the harness fail")
+}
+
+/// A hand-in that everybody can rely on.
+struct Honest {
+    program: HandInProgram,
+    scene: SceneDescription,
+}
+
+impl Honest {
+    fn new(workspace: &Workspace) -> Self {
+        let framework = Framework::build(workspace).expect("the framework builds");
+        let source = std::fs::read_to_string(workspace.solution_file()).expect("the solution is there");
+        let limits = Limits { job_time: Duration::from_secs(30), ..Limits::default() };
+        let program =
+            compile(&framework, &source, &limits).expect("rustc runs").expect("the solution compiles");
+        let scene = arty::scene::file::load(&workspace.scene_file("point_plane")).expect("it is there");
+        Self { program, scene: scene.description }
+    }
+
+    /// What it renders, to the bit.
+    fn renders(&self) -> Vec<Vec<[f32; 3]>> {
+        let mut process = HostProcess::start(&self.program, 2).expect("the program starts");
+        let scene = process.load(&self.scene).expect("the pipe holds").expect("the scene loads");
+        let job = RenderJob {
+            scene,
+            settings: Settings { technique: Technique::Nee, max_bounces: 1 },
+            width: 16,
+            height: 16,
+            seeds: vec![1, 2, 3],
+            first_sample: 0,
+            samples: 16,
+            switches: Switches::default(),
+        };
+        process.render(&job).expect("the pipe holds").expect("it renders").batches
+    }
+}
+
+/// What is wrong with a report on this attack.
+fn complaint(attack: &Attack, report: &Report) -> Option<String> {
+    let everything = serde_json::to_string(report).expect("reports can be written");
+    if everything.contains("BREACH") {
+        return Some("it reached something".to_owned());
+    }
+    if report.points.earned > 0.0 {
+        return Some("it earned points".to_owned());
+    }
+    let words = match (&report.submission.build_failure, report.checks.first()) {
+        (Some(failure), None) if attack.outcome == Outcome::Build => &failure.messages,
+        (None, Some(check)) => {
+            let as_expected = check.verdict == Verdict::Fail
+                && match attack.outcome {
+                    Outcome::Build => false,
+                    Outcome::Black => check.reason == Reason::Bias && check.explanation.contains("black"),
+                    Outcome::Wrong => check.reason == Reason::Bias,
+                    Outcome::Crash => check.reason == Reason::Crash,
+                    Outcome::Timeout => check.reason == Reason::Timeout,
+                    Outcome::Numerics => check.reason == Reason::Numerics,
+                    Outcome::Any => true,
+                };
+            if !as_expected {
+                return Some(format!("{:?}, {:?}: {}", check.verdict, check.reason, check.explanation));
+            }
+            &check.explanation
+        }
+        (Some(failure), _) => return Some(failure.messages.clone()),
+        (None, None) => return Some("it compiled, and was not run".to_owned()),
+    };
+    let obeyed = |c: char| c.is_control() && c != '\n' && c != '\t';
+    let command = words.lines().any(|line| line.trim_start().starts_with("::") || line.contains("##["));
+    if words.contains(obeyed) || command {
+        return Some(format!("its words are not harmless: {words:?}"));
+    }
+    (!words.contains(&attack.says)).then(|| format!("its report does not say `{}`: {words}", attack.says))
+}
+
+#[test]
+fn every_attack_ends_as_it_must_and_harms_nobody_else() {
+    let workspace = workspace();
+    if Level::of(Machine::here().layers()) < Level::Medium {
+        eprintln!("left out: this machine has no sandbox; see `grader doctor`");
+        return;
+    }
+    let folder = workspace.root().join("grader/hostile");
+    let text = std::fs::read_to_string(folder.join("index.yml")).expect("the index is there");
+    let index: Index = serde_yaml::from_str(&text).expect("the index is sound");
+    let honest = Honest::new(&workspace);
+    let right = honest.renders();
+    let root = workspace.root().display().to_string();
+    let deep = format!("{}1{}", "(".repeat(50_000), ")".repeat(50_000));
+
+    let mut complaints = Vec::new();
+    // One alone: HOSTILE=name cargo test -p grader --test hostile
+    let only = std::env::var("HOSTILE").ok();
+    for attack in index.hand_ins.iter().filter(|attack| only.as_ref().is_none_or(|only| *only == attack.file))
+    {
+        let file = folder.join(format!("{}.rs", attack.file));
+        let source = std::fs::read_to_string(&file).expect("the file is there");
+        let start = Instant::now();
+        let report = grade_source(&workspace, source.replace("@ROOT@", &root).replace("@DEEP@", &deep));
+        let seconds = start.elapsed().as_secs_f64();
+        eprintln!("{:<28} {:?} {seconds:.1} s", attack.file, attack.outcome);
+        let complaint = complaint(attack, &report);
+        complaints
+            .extend(complaint.map(|complaint| format!("{} ({}): {complaint}", attack.file, attack.threat)));
+        assert!(honest.renders() == right, "{}: the next hand-in renders something else", attack.file);
+    }
+    assert!(complaints.is_empty(), "{}", complaints.join("\n\n"));
+    assert!(!std::path::Path::new("/tmp/arty-owned").exists());
+}
+
+#[test]
+fn the_corpus_and_its_index_are_about_the_same_files() {
+    let folder = workspace().root().join("grader/hostile");
+    let text = std::fs::read_to_string(folder.join("index.yml")).expect("the index is there");
+    let index: Index = serde_yaml::from_str(&text).expect("the index is sound");
+    let mut named: Vec<String> = index.hand_ins.iter().map(|attack| format!("{}.rs", attack.file)).collect();
+    named.sort();
+    let mut there: Vec<String> = std::fs::read_dir(&folder)
+        .expect("the folder is there")
+        .map(|entry| entry.expect("it can be listed").file_name().to_string_lossy().into_owned())
+        .filter(|name| name.ends_with(".rs"))
+        .collect();
+    there.sort();
+    assert_eq!(named, there);
+    assert!(named.len() >= 30);
+}
+
+#[test]
+fn the_report_tells_how_the_hand_in_was_confined_and_what_it_reached_for() {
+    let workspace = workspace();
+    let source = std::fs::read_to_string(workspace.solution_file()).expect("the solution is there");
+    let report = grade_source(&workspace, format!("{source}\nuse std::fs::File as _;\n"));
+    assert_eq!(report.checks[0].verdict, Verdict::Pass, "{:#?}", report.checks[0]);
+    let sandbox = &report.sandbox;
+    assert_eq!(sandbox.level, Level::of(Machine::here().layers()), "{sandbox:?}");
+    assert_eq!(sandbox.missing.is_empty(), sandbox.level == Level::Strong, "{sandbox:?}");
+    let lines: Vec<usize> = sandbox.findings.iter().map(|finding| finding.line).collect();
+    assert_eq!(lines, [source.lines().count() + 2], "{sandbox:?}");
+}
+
+#[test]
+fn a_source_of_megabytes_is_not_even_compiled() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("render_pt.rs");
+    std::fs::write(&file, "// x\n".repeat(200_000)).expect("it can be written");
+    let error = Submission::read(&file).expect_err("it is refused").to_string();
+    assert!(error.contains("too many"), "{error}");
+}
+
+#[test]
+fn without_a_sandbox_the_report_says_so() {
+    let workspace = workspace();
+    let submission = Submission::read(&workspace.solution_file()).expect("the solution is there");
+    let limits = Limits { sandbox: false, ..limits() };
+    let only = vec![CHECK.to_owned()];
+    let options = Options { assignment: "05-nee-mis".to_owned(), seed: 1, threads: 2, only, limits };
+    let report = grade(&workspace, &submission, &options, |_| {}).expect("the harness works");
+    assert!(report.sandbox.level < Level::Medium, "{:?}", report.sandbox);
+    assert!(report.sandbox.missing.contains("Landlock"), "{:?}", report.sandbox);
+}
