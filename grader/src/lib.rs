@@ -7,6 +7,7 @@
 
 pub mod build;
 pub mod checks;
+pub mod class;
 pub mod commands;
 pub mod error;
 pub mod grade;

@@ -1,8 +1,11 @@
 //! The commands of the program.
 
+mod class;
 mod figures;
 mod grade;
 mod mutants;
+mod pack;
+mod policy;
 mod reference;
 mod trusted;
 
@@ -22,6 +25,10 @@ struct Arguments {
 enum Command {
     /// Grade one hand-in: build it, run its checks, print points, write report.json.
     Grade(grade::Arguments),
+    /// Grade a class: a folder of hand-ins, with deadlines, a gradebook and the files of course systems (for staff).
+    Class(class::Arguments),
+    /// Pack your hand-in: checks that it compiles, packs it, prints its MD5 checksum.
+    Pack(pack::Arguments),
     /// Render the figures of the sheet with the solution (for staff).
     Figures(figures::Arguments),
     /// Grade wrong and right variants of the solution: what is caught, and what is not (for staff).
@@ -35,6 +42,8 @@ enum Command {
 pub fn run() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Grade(arguments) => grade::run(&arguments),
+        Command::Class(arguments) => class::run_class(&arguments),
+        Command::Pack(arguments) => pack::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Mutants(arguments) => mutants::run(&arguments),
         Command::Reference(arguments) => reference::run(&arguments),

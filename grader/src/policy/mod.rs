@@ -13,6 +13,7 @@ mod time;
 
 pub use course::{Course, Extension};
 pub use judge::{Lateness, Policy, Standing};
+pub(crate) use manifest::the_one_that_counts;
 pub use manifest::{Manifest, Receipt};
 pub use rules::{LateRule, Md5Rule, Rules};
 pub use time::{parse_received, zone};
