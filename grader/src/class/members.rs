@@ -145,7 +145,7 @@ mod tests {
             ("ab12", "ab12"),
             ("AB12", "AB12~2"),
             ("../../etc/passwd", "etc_passwd"),
-            ("=cmd|' /C calc'!A0", "cmd___C_calc__A0"),
+            ("=cmd|' /C calc'!A0", "cmd____C_calc__A0"),
             ("Jürgen Ö", "Jürgen_Ö"),
             ("🎨", "somebody"),
             ("", "somebody~2"),

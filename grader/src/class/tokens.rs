@@ -4,56 +4,82 @@ use std::collections::BTreeSet;
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
-/// Tokens of a source, each as a hash. Names that are not of the vocabulary are all alike, and so are literals of one
-/// kind; comments are none. A source that is not made of Rust's tokens is taken by its words.
+/// A token; of literals no more is kept than that there is one.
+enum Token {
+    Name(String),
+    Sign(char),
+    Literal,
+}
+
+/// Tokens of a source, each as a hash. Names that are not of the vocabulary are all alike, and so are literals;
+/// comments are none. A source that is not made of Rust's tokens is taken by its words.
 pub(super) fn tokens(source: &str, vocabulary: &BTreeSet<String>) -> Vec<u64> {
+    let all = flatten(source).into_iter().map(|token| match token {
+        Token::Name(name) if is_keyword(&name) || vocabulary.contains(&name) => hash(&name),
+        Token::Name(_) => hash("a name"),
+        Token::Sign(sign) => hash(sign.encode_utf8(&mut [0; 4])),
+        Token::Literal => hash("a literal"),
+    });
+    all.collect()
+}
+
+/// All names in a source that are not its comments'.
+pub(super) fn names(source: &str) -> BTreeSet<String> {
+    let names = flatten(source).into_iter().filter_map(|token| match token {
+        Token::Name(name) => Some(name),
+        Token::Sign(_) | Token::Literal => None,
+    });
+    names.collect()
+}
+
+fn flatten(source: &str) -> Vec<Token> {
     let Ok(stream) = source.parse::<TokenStream>() else {
-        return words(source).map(|word| hash(name(word, vocabulary))).collect();
+        let words = source.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+        return words.filter(|word| !word.is_empty()).map(|word| Token::Name(word.to_owned())).collect();
     };
-    let mut hashes = Vec::new();
+    let mut tokens = Vec::new();
     // Not by recursion: brackets can be nested as deep as a file is long.
-    let mut open = vec![(stream.into_iter(), "")];
+    let mut open = vec![(stream.into_iter(), None)];
     while let Some((stream, end)) = open.last_mut() {
         let Some(token) = stream.next() else {
-            hashes.push(hash(end));
+            tokens.extend(end.map(Token::Sign));
             open.pop();
             continue;
         };
         match token {
-            TokenTree::Group(group) if is_documentation(&group.stream()) => {}
+            TokenTree::Group(group) if is_documentation(&group.stream()) => {
+                // `///` and `//!` come as attributes, whose signs are there already.
+                while let Some(Token::Sign('#' | '!')) = tokens.last() {
+                    tokens.pop();
+                }
+            }
             TokenTree::Group(group) => {
                 let (start, end) = match group.delimiter() {
-                    Delimiter::Parenthesis => ("(", ")"),
-                    Delimiter::Brace => ("{", "}"),
-                    Delimiter::Bracket => ("[", "]"),
-                    Delimiter::None => ("", ""),
+                    Delimiter::Parenthesis => (Some('('), Some(')')),
+                    Delimiter::Brace => (Some('{'), Some('}')),
+                    Delimiter::Bracket => (Some('['), Some(']')),
+                    Delimiter::None => (None, None),
                 };
-                hashes.push(hash(start));
+                tokens.extend(start.map(Token::Sign));
                 open.push((group.stream().into_iter(), end));
             }
-            TokenTree::Ident(ident) => hashes.push(hash(name(&ident.to_string(), vocabulary))),
-            TokenTree::Punct(punct) => hashes.push(hash(punct.as_char().encode_utf8(&mut [0; 4]))),
-            TokenTree::Literal(_) => hashes.push(hash("literal")),
+            TokenTree::Ident(ident) => tokens.push(Token::Name(ident.to_string())),
+            TokenTree::Punct(punct) => tokens.push(Token::Sign(punct.as_char())),
+            TokenTree::Literal(_) => tokens.push(Token::Literal),
         }
     }
-    hashes
+    tokens
 }
 
-/// The words of a source: names, keywords and numbers.
-pub(super) fn words(source: &str) -> impl Iterator<Item = &str> {
-    source.split(|c: char| !(c.is_alphanumeric() || c == '_')).filter(|word| !word.is_empty())
-}
-
-fn name<'a>(word: &'a str, vocabulary: &BTreeSet<String>) -> &'a str {
+fn is_keyword(word: &str) -> bool {
     const KEYWORDS: [&str; 26] = [
         "as", "break", "const", "continue", "else", "enum", "false", "fn", "for", "if", "impl", "in", "let",
         "loop", "match", "mod", "mut", "ref", "return", "self", "struct", "trait", "true", "use", "where",
         "while",
     ];
-    if KEYWORDS.contains(&word) || vocabulary.contains(word) { word } else { "name" }
+    KEYWORDS.contains(&word)
 }
 
-/// `///` and `//!` come as attributes.
 fn is_documentation(stream: &TokenStream) -> bool {
     matches!(stream.clone().into_iter().next(), Some(TokenTree::Ident(ident)) if ident == "doc")
 }
