@@ -65,6 +65,22 @@ struct Shared<'a> {
     tasks: Vec<String>,
 }
 
+/// The hand-in of a member that counts.
+struct Taken {
+    hand_in: HandIn,
+    receipt: Option<Receipt>,
+    lateness: Option<Lateness>,
+}
+
+/// What is known of a hand-in once it is taken in and graded.
+struct Settled {
+    record: Record,
+    fingerprint: Option<Fingerprint>,
+    lateness: Option<Lateness>,
+    receipt: Option<Receipt>,
+    graded: bool,
+}
+
 /// What a worker sends of one hand-in.
 struct Done {
     index: usize,
@@ -160,7 +176,8 @@ impl Shared<'_> {
         let attempt = catch_unwind(AssertUnwindSafe(|| self.attempt(member, &shelf, before.as_ref(), line)))
             .unwrap_or_else(|_| Err(Error::Harness("the grader panicked".to_owned())));
         match attempt {
-            Ok(Some((record, fingerprint, lateness, receipt, graded))) => {
+            Ok(Some(settled)) => {
+                let Settled { record, fingerprint, lateness, receipt, graded } = settled;
                 let change = before.as_ref().and_then(|before| change(&member.key, before, &record));
                 let row = Row::of_record(member, &record, lateness, receipt.as_ref(), self.policy);
                 Done { index, row, fingerprint, change, graded }
@@ -191,15 +208,14 @@ impl Shared<'_> {
     }
 
     /// Takes in and grades; `None` if there is nothing.
-    #[expect(clippy::type_complexity, reason = "it is taken apart where it is made")]
     fn attempt(
         &self,
         member: &Member,
         shelf: &Shelf,
         before: Option<&Record>,
         line: &mut Line,
-    ) -> Result<Option<(Record, Option<Fingerprint>, Option<Lateness>, Option<Receipt>, bool)>> {
-        let Some((hand_in, receipt, lateness)) = self.take(member)? else { return Ok(None) };
+    ) -> Result<Option<Settled>> {
+        let Some(Taken { hand_in, receipt, lateness }) = self.take(member)? else { return Ok(None) };
         let source = hand_in.outcome.as_ref().map_or("", |submission| submission.source.as_str());
         let key = self.key(source);
         let fingerprint = hand_in.outcome.is_ok().then(|| self.starter.fingerprint(source));
@@ -212,7 +228,7 @@ impl Shared<'_> {
                     let Record { notes, explanations, checksums, .. } = record;
                     record = Record { notes, explanations, checksums, ..before.clone() };
                 }
-                return Ok(Some((record, fingerprint, lateness, receipt, false)));
+                return Ok(Some(Settled { record, fingerprint, lateness, receipt, graded: false }));
             }
             Ok(submission) => Some(self.grader.grade(submission, |check| line.check(check))?),
         };
@@ -220,11 +236,11 @@ impl Shared<'_> {
             record = Record::new(record.key, &hand_in, &self.tasks, Some(report));
         }
         shelf.save(&mut record, report.as_ref())?;
-        Ok(Some((record, fingerprint, lateness, receipt, report.is_some())))
+        Ok(Some(Settled { record, fingerprint, lateness, receipt, graded: report.is_some() }))
     }
 
     /// The hand-in that counts, of those that a member sent.
-    fn take(&self, member: &Member) -> Result<Option<(HandIn, Option<Receipt>, Option<Lateness>)>> {
+    fn take(&self, member: &Member) -> Result<Option<Taken>> {
         let names = member.names();
         let paths_of = |receipt: &Receipt| {
             let named = !receipt.path.is_empty();
@@ -244,14 +260,18 @@ impl Shared<'_> {
         });
         if let Some((receipt, lateness)) = counts {
             let receipt = receipt.clone();
-            return Ok(taken.remove(&receipt.path).map(|hand_in| (hand_in, Some(receipt), Some(lateness))));
+            return Ok(taken.remove(&receipt.path).map(|hand_in| Taken {
+                hand_in,
+                receipt: Some(receipt),
+                lateness: Some(lateness),
+            }));
         }
         if member.paths.is_empty() {
             return Ok(None);
         }
         let hand_in = intake::take(&member.paths, &self.starter_text)?;
         let lateness = self.policy.map(|policy| policy.judge(&names, None, &hand_in.checksums));
-        Ok(Some((hand_in, None, lateness)))
+        Ok(Some(Taken { hand_in, receipt: None, lateness }))
     }
 
     fn key(&self, source: &str) -> String {

@@ -24,8 +24,9 @@ pub(super) fn policy(
         };
     };
     let dates = file.as_deref().map_or(Ok(Course::default()), Course::load)?;
-    let wrong = |message| {
-        file.as_deref().map_or_else(|| Error::Input(String::new()), |file| Error::file(file, message))
+    let wrong = |message: String| match &file {
+        Some(file) => Error::file(file, message),
+        None => Error::Input(message),
     };
     Policy::new(rules, &dates).map(Some).map_err(wrong)
 }

@@ -268,7 +268,11 @@ fn of_a_repository_the_last_commit_counts_and_nothing_of_it_runs() {
     let (work, bare) = (folder.path().join("work"), folder.path().join("bare.git"));
     write_all(&work, &[("src/render_pt.rs", SOURCE.as_bytes()), (".gitattributes", b"*.rs filter=evil\n")]);
     git(&work, &["init", "-q"]);
-    assert_eq!(code(&take(&[work.clone()], STARTER).expect("it is there")), "git", "no commit yet");
+    assert_eq!(
+        code(&take(std::slice::from_ref(&work), STARTER).expect("it is there")),
+        "git",
+        "no commit yet"
+    );
     git(&work, &["add", "."]);
     git(&work, &["commit", "-qm", "one"]);
     git(folder.path(), &["clone", "-q", "--bare", "work", "bare.git"]);
@@ -282,7 +286,7 @@ fn of_a_repository_the_last_commit_counts_and_nothing_of_it_runs() {
     let checkout = take(&[work], STARTER).expect("it is there");
     assert_eq!((source(&checkout), notes(&checkout)), (SOURCE, vec!["uncommitted"]));
     assert!(!proof.exists(), "a program of the repository ran");
-    let from_bare = take(&[bare.clone()], STARTER).expect("it is there");
+    let from_bare = take(std::slice::from_ref(&bare), STARTER).expect("it is there");
     assert_eq!((source(&from_bare), notes(&from_bare)), (SOURCE, vec![]));
     write_all(&bare, &[("objects/info/alternates", b"/elsewhere\n")]);
     assert_eq!(code(&take(&[bare], STARTER).expect("it is there")), "git");

@@ -150,9 +150,8 @@ fn key(student: &str) -> String {
     student.trim().to_lowercase()
 }
 
-/// "1 h 05 min 00 s".
 impl Lateness {
-    /// By how much it is late, for people.
+    /// By how much it is late, for people: "1 h 05 min 00 s".
     pub fn late_by_text(&self) -> String {
         self.late_by.map_or_else(String::new, |seconds| {
             format!("{} h {:02} min {:02} s", seconds / 3600, seconds / 60 % 60, seconds % 60)
