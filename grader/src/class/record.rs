@@ -15,7 +15,7 @@ const SCHEMA: &str = "arty-record/1";
 /// What is kept of a hand-in. Its points are raw: what a date can change is not among them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Record {
-    /// [`SCHEMA`].
+    /// The version of the format.
     pub schema: String,
     /// Hash of all that the verdicts depend on.
     pub key: String,
