@@ -55,8 +55,9 @@ pub(super) struct Arguments {
     /// Seed of all random numbers: the same seed gives the same verdicts
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Run only these checks: by check, kind, scene, technique or task; may be given several times
-    #[arg(long, value_name = "CHECK|SCENE|TASK")]
+    /// Run only these checks: by check, kind, scene, technique or task; may be given several times. Tasks of which not
+    /// all checks are run have no points
+    #[arg(long, value_name = "CHECK|SCENE|TASK", conflicts_with_all = ["moodle", "ilias"])]
     only: Vec<String>,
 }
 
@@ -168,6 +169,9 @@ fn print_outcome(
     });
     if unknown > 0 {
         eprintln!("of {unknown} hand-ins nobody said when they came: they count in full (see --manifest)");
+    }
+    if !arguments.only.is_empty() {
+        eprintln!("note: with --only, sums are of those tasks alone whose checks were all run");
     }
     eprintln!("gradebook: {}", gradebook.display());
 }
