@@ -47,98 +47,137 @@ pub fn grade(
     workspace: &Workspace,
     submission: &Submission,
     options: &Options,
-    mut on_check: impl FnMut(&CheckResult),
+    on_check: impl FnMut(&CheckResult),
 ) -> Result<Report> {
-    let start = Instant::now();
-    let rubric_file = workspace.assignment(&options.assignment).join("rubric.yml");
-    let rubric = Rubric::load(&rubric_file)?;
-    let selected = select(&rubric, &options.only)?;
-    let scenes = load_scenes(workspace, &selected)?;
+    Grader::new(workspace, options)?.grade(submission, on_check)
+}
 
-    let framework_start = Instant::now();
-    let framework = Framework::build(workspace)?;
-    let framework_time = framework_start.elapsed().as_secs_f64();
-    let build_start = Instant::now();
-    // Both at the same time: each keeps one processor busy.
-    let (built, solution) = rayon::join(
-        || compile(&framework, &submission.source, &options.limits),
-        || solution(workspace, &framework, &selected),
-    );
-    let (built, solution) = (built?, solution?);
-    let build_time = build_start.elapsed().as_secs_f64();
+/// All that is the same for every hand-in of an assignment, made ready once. It can grade several at a time.
+pub struct Grader {
+    options: Options,
+    rubric: Rubric,
+    scenes: BTreeMap<String, JudgedScene>,
+    framework: Framework,
+    framework_time: f64,
+    solution: Option<HandInProgram>,
+    provenance: BTreeMap<String, String>,
+}
 
-    let run_start = Instant::now();
-    let mut checks = Vec::new();
-    let possible = Machine::here().layers();
-    let mut sandbox = Sandbox::new(possible, possible, scan(&submission.source));
-    let mut left_out = plan::left_out(&scenes);
-    if let Ok(program) = &built {
-        let host = HostProcess::start(program, options.threads)?.layers();
-        sandbox = Sandbox::new(program.layers, host, sandbox.findings);
-        let bench = bench(program, solution.as_ref(), &scenes, submission, options, rubric.checks().count());
-        for (task, spec) in &selected {
-            if let Some(why) = plan::why_left_out(spec, scenes.get(&spec.scene), solution.is_some()) {
-                left_out.push(LeftOut { check: spec.id(), scene: spec.scene.clone(), why });
-                continue;
-            }
-            let timeouts = checks.iter().filter(|check: &&CheckResult| check.reason == Reason::Timeout);
-            let result = if timeouts.count() >= TIMEOUTS { bench.skip(task, spec) } else { bench.run(task, spec)? };
-            on_check(&result);
-            checks.push(result);
-        }
+impl Grader {
+    /// Loads rubric, scenes and references, and builds the framework.
+    ///
+    /// # Errors
+    /// If any of these is not as it should be.
+    pub fn new(workspace: &Workspace, options: &Options) -> Result<Self> {
+        let rubric_file = workspace.assignment(&options.assignment).join("rubric.yml");
+        let rubric = Rubric::load(&rubric_file)?;
+        let selected = select(&rubric, &options.only)?;
+        let scenes = load_scenes(workspace, &selected)?;
+        let framework_start = Instant::now();
+        let framework = Framework::build(workspace)?;
+        let framework_time = framework_start.elapsed().as_secs_f64();
+        let solution = solution(workspace, &framework, &selected)?;
+        let provenance = BTreeMap::from([
+            ("grader".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
+            ("framework".to_owned(), framework.hash()?),
+            ("rubric".to_owned(), hash_of_file(&rubric_file)?),
+            ("references".to_owned(), hash_of_references(&scenes)),
+            ("seed".to_owned(), options.seed.to_string()),
+            ("toolchain".to_owned(), framework.toolchain.clone()),
+            ("threads".to_owned(), options.threads.to_string()),
+        ]);
+        Ok(Self { options: options.clone(), rubric, scenes, framework, framework_time, solution, provenance })
     }
-    let run_time = run_start.elapsed().as_secs_f64();
-    let build_failure = built.err();
-    let tasks: Vec<TaskResult> = rubric
-        .tasks
-        .iter()
-        .map(|task| mark(task, &selected, &checks, &left_out, build_failure.is_some()))
-        .collect();
-    let tasks = require(&rubric, tasks, &checks);
-    let total =
-        |manual: bool| rubric.tasks.iter().filter(|task| task.manual == manual).map(|task| task.points).sum();
-    let points = Points {
-        earned: tasks.iter().filter_map(|task| task.points).fold(0.0, |sum, points| sum + points),
-        automatic_max: total(false),
-        manual_max: total(true),
-        max: total(false) + total(true),
-    };
-    let numerics = Numerics {
-        non_finite: checks.iter().map(|check| check.non_finite).sum(),
-        negative: checks.iter().map(|check| check.negative).sum(),
-    };
-    let provenance = BTreeMap::from([
-        ("grader".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
-        ("framework".to_owned(), framework.hash()?),
-        ("rubric".to_owned(), hash_of_file(&rubric_file)?),
-        ("references".to_owned(), hash_of_references(&scenes)),
-        ("seed".to_owned(), options.seed.to_string()),
-        ("toolchain".to_owned(), framework.toolchain.clone()),
-        ("threads".to_owned(), options.threads.to_string()),
-    ]);
-    Ok(Report {
-        schema: SCHEMA.to_owned(),
-        submission: SubmissionInfo {
-            path: clean(&submission.path.display().to_string()),
-            hash: submission.hash(),
-            build_failure,
-        },
-        assignment: rubric.assignment.clone(),
-        points,
-        tasks,
-        checks,
-        left_out,
-        diagnosis: Vec::new(),
-        numerics,
-        cost: Cost {
-            framework: framework_time,
-            build: build_time,
-            run: run_time,
-            total: start.elapsed().as_secs_f64(),
-        },
-        sandbox,
-        provenance,
-    })
+
+    /// What the assignment asks for.
+    pub fn rubric(&self) -> &Rubric {
+        &self.rubric
+    }
+
+    /// What all grades rest on.
+    pub fn provenance(&self) -> &BTreeMap<String, String> {
+        &self.provenance
+    }
+
+    /// Grades a hand-in. `on_check` is told of each check as it ends.
+    ///
+    /// # Errors
+    /// What is not the hand-in's doing.
+    pub fn grade(&self, submission: &Submission, mut on_check: impl FnMut(&CheckResult)) -> Result<Report> {
+        let start = Instant::now();
+        let Self { options, rubric, scenes, framework, framework_time, solution, provenance } = self;
+        let selected = select(rubric, &options.only)?;
+        let build_start = Instant::now();
+        let built = compile(framework, &submission.source, &options.limits)?;
+        let build_time = build_start.elapsed().as_secs_f64();
+
+        let run_start = Instant::now();
+        let mut checks = Vec::new();
+        let possible = Machine::here().layers();
+        let mut sandbox = Sandbox::new(possible, possible, scan(&submission.source));
+        let mut left_out = plan::left_out(scenes);
+        if let Ok(program) = &built {
+            let host = HostProcess::start(program, options.threads)?.layers();
+            sandbox = Sandbox::new(program.layers, host, sandbox.findings);
+            let checks_in_all = rubric.checks().count();
+            let bench = bench(program, solution.as_ref(), scenes, submission, options, checks_in_all);
+            for (task, spec) in &selected {
+                if let Some(why) = plan::why_left_out(spec, scenes.get(&spec.scene), solution.is_some()) {
+                    left_out.push(LeftOut { check: spec.id(), scene: spec.scene.clone(), why });
+                    continue;
+                }
+                let timeouts = checks.iter().filter(|check: &&CheckResult| check.reason == Reason::Timeout);
+                let out_of_time = timeouts.count() >= TIMEOUTS;
+                let result = if out_of_time { bench.skip(task, spec) } else { bench.run(task, spec)? };
+                on_check(&result);
+                checks.push(result);
+            }
+        }
+        let run_time = run_start.elapsed().as_secs_f64();
+        let build_failure = built.err();
+        let tasks: Vec<TaskResult> = rubric
+            .tasks
+            .iter()
+            .map(|task| mark(task, &selected, &checks, &left_out, build_failure.is_some()))
+            .collect();
+        let tasks = require(rubric, tasks, &checks);
+        let total = |manual: bool| {
+            rubric.tasks.iter().filter(|task| task.manual == manual).map(|task| task.points).sum()
+        };
+        let points = Points {
+            earned: tasks.iter().filter_map(|task| task.points).fold(0.0, |sum, points| sum + points),
+            automatic_max: total(false),
+            manual_max: total(true),
+            max: total(false) + total(true),
+        };
+        let numerics = Numerics {
+            non_finite: checks.iter().map(|check| check.non_finite).sum(),
+            negative: checks.iter().map(|check| check.negative).sum(),
+        };
+        Ok(Report {
+            schema: SCHEMA.to_owned(),
+            submission: SubmissionInfo {
+                path: clean(&submission.path.display().to_string()),
+                hash: submission.hash(),
+                build_failure,
+            },
+            assignment: rubric.assignment.clone(),
+            points,
+            tasks,
+            checks,
+            left_out,
+            diagnosis: Vec::new(),
+            numerics,
+            cost: Cost {
+                framework: *framework_time,
+                build: build_time,
+                run: run_time,
+                total: framework_time + start.elapsed().as_secs_f64(),
+            },
+            sandbox,
+            provenance: provenance.clone(),
+        })
+    }
 }
 
 /// After so many checks that did not end in time the others are not run: one scene may be too much for a hand-in that is

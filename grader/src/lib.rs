@@ -1,19 +1,22 @@
 //! Judges hand-ins: builds them, runs them apart, compares what they render with what is right, reports.
 //!
-//! The way of a hand-in: [`submission`] reads it, [`build`] makes a program of it, [`host_process`] runs that
-//! program in a [`sandbox`], [`checks`] ask it for numbers and judge them with [`statistics`] against [`mod@reference`]s or closed
+//! The way of a hand-in: [`intake`] finds the [`submission`] in what was sent, [`build`] makes a program of it,
+//! [`host_process`] runs that program in a [`sandbox`], [`checks`] ask it for numbers and judge them with [`statistics`] against [`mod@reference`]s or closed
 //! forms, [`mod@grade`] turns verdicts into points by the [`rubric`], [`report`] says what was found. [`mutants`] holds all of it to
 //! hand-ins whose mistakes are known.
 
 pub mod build;
 pub mod calibration;
 pub mod checks;
+pub mod class;
 pub mod commands;
 pub mod error;
 pub mod grade;
 pub mod host_process;
+pub mod intake;
 pub mod mutants;
 pub mod plan;
+pub mod policy;
 pub mod reference;
 pub mod report;
 pub mod rubric;
@@ -21,5 +24,6 @@ pub mod sandbox;
 pub mod scan;
 pub mod statistics;
 pub mod submission;
+pub mod table;
 pub mod text;
 pub mod workspace;

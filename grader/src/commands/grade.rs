@@ -15,7 +15,7 @@ use crate::workspace::Workspace;
 /// Grade one hand-in.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// A render_pt.rs, or a folder with one in it [default: the student file in the skeleton]
+    /// A render_pt.rs, or a folder, .zip, .tar.gz or git repository with one in it [default: the student file in the skeleton]
     submission: Option<PathBuf>,
     /// The assignment: a folder below assignments/
     #[arg(long, default_value = "05-nee-mis")]

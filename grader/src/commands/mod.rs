@@ -1,11 +1,14 @@
 //! The commands of the program.
 
 mod calibrate;
+mod class;
 mod doctor;
 mod figures;
 mod grade;
 mod mutants;
+mod pack;
 mod plan;
+mod policy;
 mod reference;
 mod trusted;
 
@@ -29,6 +32,10 @@ enum Command {
     Calibrate(calibrate::Arguments),
     /// Tell what this machine gives for grading: compiler, linker, sandbox, and how to get a better one.
     Doctor(doctor::Arguments),
+    /// Grade a class: a folder of hand-ins, with deadlines, a gradebook and the files of course systems (for staff).
+    Class(class::Arguments),
+    /// Pack your hand-in: checks that it compiles, packs it, prints its MD5 checksum.
+    Pack(pack::Arguments),
     /// Render the figures of the sheet with the solution (for staff).
     Figures(figures::Arguments),
     /// Grade wrong and right variants of the solution: what is caught, and what is not (for staff).
@@ -46,6 +53,8 @@ pub fn run() -> ExitCode {
         Command::Grade(arguments) => grade::run(&arguments),
         Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
+        Command::Class(arguments) => class::run_class(&arguments),
+        Command::Pack(arguments) => pack::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Mutants(arguments) => mutants::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),

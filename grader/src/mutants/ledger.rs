@@ -122,7 +122,8 @@ pub fn hash_of_inputs(workspace: &Workspace, assignment: &str) -> Result<blake3:
     Ok(hasher.finalize())
 }
 
-fn hash_tree(path: &Path, hasher: &mut blake3::Hasher) -> Result<()> {
+/// Adds a file, or all files below a folder, but for what neither makes nor judges an image.
+pub(crate) fn hash_tree(path: &Path, hasher: &mut blake3::Hasher) -> Result<()> {
     let name = path.file_name().unwrap_or_default();
     let trouble = |error: std::io::Error| Error::file(path, error);
     if !path.is_dir() {
@@ -130,8 +131,10 @@ fn hash_tree(path: &Path, hasher: &mut blake3::Hasher) -> Result<()> {
         hasher.update(blake3::hash(&std::fs::read(path).map_err(trouble)?).as_bytes());
         return Ok(());
     }
-    // What neither makes nor judges an image.
-    if ["mutants", "commands", "pictures", "algorithms", "cli"].iter().any(|&other| name == other) {
+    if ["mutants", "commands", "pictures", "algorithms", "cli", "class", "intake", "policy"]
+        .iter()
+        .any(|&other| name == other)
+    {
         return Ok(());
     }
     let mut entries = std::fs::read_dir(path)

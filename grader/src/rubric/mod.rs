@@ -7,6 +7,7 @@ use arty::integrator::Technique;
 use serde::Deserialize;
 
 use crate::error::{Error, Result};
+use crate::policy::Rules;
 
 mod check;
 
@@ -20,6 +21,9 @@ pub struct Rubric {
     pub assignment: String,
     /// Its title.
     pub title: String,
+    /// What becomes of late hand-ins; without it, nothing is late.
+    #[serde(default)]
+    pub policy: Option<Rules>,
     /// The tasks, in the order of the sheet.
     pub tasks: Vec<Task>,
 }
@@ -54,6 +58,7 @@ impl Rubric {
     }
 
     fn validate(&self) -> std::result::Result<(), String> {
+        self.policy.as_ref().map_or(Ok(()), Rules::validate)?;
         for task in &self.tasks {
             let id = &task.id;
             if !(task.points.is_finite() && task.points > 0.0) {

@@ -1,0 +1,92 @@
+//! Sources as tokens without what is changed first when somebody else's file is handed in: names, comments, layout.
+
+use std::collections::BTreeSet;
+
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
+
+/// A token; of literals no more is kept than that there is one.
+enum Token {
+    Name(String),
+    Sign(char),
+    Literal,
+}
+
+/// Tokens of a source, each as a hash. Names that are not of the vocabulary are all alike, and so are literals;
+/// comments are none. A source that is not made of Rust's tokens is taken by its words.
+pub(super) fn tokens(source: &str, vocabulary: &BTreeSet<String>) -> Vec<u64> {
+    let all = flatten(source).into_iter().map(|token| match token {
+        Token::Name(name) if is_keyword(&name) || vocabulary.contains(&name) => hash(&name),
+        Token::Name(_) => hash("a name"),
+        Token::Sign(sign) => hash(sign.encode_utf8(&mut [0; 4])),
+        Token::Literal => hash("a literal"),
+    });
+    all.collect()
+}
+
+/// All names in a source that are not its comments'.
+pub(super) fn names(source: &str) -> BTreeSet<String> {
+    let names = flatten(source).into_iter().filter_map(|token| match token {
+        Token::Name(name) => Some(name),
+        Token::Sign(_) | Token::Literal => None,
+    });
+    names.collect()
+}
+
+fn flatten(source: &str) -> Vec<Token> {
+    let Ok(stream) = source.parse::<TokenStream>() else {
+        let words = source.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+        return words.filter(|word| !word.is_empty()).map(|word| Token::Name(word.to_owned())).collect();
+    };
+    let mut tokens = Vec::new();
+    // Not by recursion: brackets can be nested as deep as a file is long.
+    let mut open = vec![(stream.into_iter(), None)];
+    while let Some((stream, end)) = open.last_mut() {
+        let Some(token) = stream.next() else {
+            tokens.extend(end.map(Token::Sign));
+            open.pop();
+            continue;
+        };
+        match token {
+            TokenTree::Group(group) if is_documentation(&group.stream()) => {
+                // `///` and `//!` come as attributes, whose signs are there already.
+                while let Some(Token::Sign('#' | '!')) = tokens.last() {
+                    tokens.pop();
+                }
+            }
+            TokenTree::Group(group) => {
+                let (start, end) = match group.delimiter() {
+                    Delimiter::Parenthesis => (Some('('), Some(')')),
+                    Delimiter::Brace => (Some('{'), Some('}')),
+                    Delimiter::Bracket => (Some('['), Some(']')),
+                    Delimiter::None => (None, None),
+                };
+                tokens.extend(start.map(Token::Sign));
+                open.push((group.stream().into_iter(), end));
+            }
+            TokenTree::Ident(ident) => tokens.push(Token::Name(ident.to_string())),
+            TokenTree::Punct(punct) => tokens.push(Token::Sign(punct.as_char())),
+            TokenTree::Literal(_) => tokens.push(Token::Literal),
+        }
+    }
+    tokens
+}
+
+fn is_keyword(word: &str) -> bool {
+    const KEYWORDS: [&str; 26] = [
+        "as", "break", "const", "continue", "else", "enum", "false", "fn", "for", "if", "impl", "in", "let",
+        "loop", "match", "mod", "mut", "ref", "return", "self", "struct", "trait", "true", "use", "where",
+        "while",
+    ];
+    KEYWORDS.contains(&word)
+}
+
+fn is_documentation(stream: &TokenStream) -> bool {
+    matches!(stream.clone().into_iter().next(), Some(TokenTree::Ident(ident)) if ident == "doc")
+}
+
+/// The first eight bytes of BLAKE3.
+fn hash(text: &str) -> u64 {
+    let mut first = [0; 8];
+    first.copy_from_slice(&blake3::hash(text.as_bytes()).as_bytes()[..8]);
+    u64::from_le_bytes(first)
+}

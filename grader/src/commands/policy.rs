@@ -1,0 +1,32 @@
+//! The policy of an assignment, as commands need it.
+
+use std::path::Path;
+
+use crate::error::{Error, Result};
+use crate::policy::{Course, Policy};
+use crate::rubric::Rubric;
+use crate::workspace::Workspace;
+
+/// The rubric's rules with the dates of a course: those of the file that is named, or else of the `course.yml` beside
+/// the rubric. `None` if the rubric has no rules.
+pub(super) fn policy(
+    workspace: &Workspace,
+    assignment: &str,
+    rubric: &Rubric,
+    course: Option<&Path>,
+) -> Result<Option<Policy>> {
+    let beside = workspace.assignment(assignment).join("course.yml");
+    let file = course.map(Path::to_owned).or_else(|| beside.is_file().then_some(beside));
+    let Some(rules) = &rubric.policy else {
+        return match course {
+            Some(path) => Err(Error::file(path, "the rubric has no `policy` that these dates belong to")),
+            None => Ok(None),
+        };
+    };
+    let dates = file.as_deref().map_or(Ok(Course::default()), Course::load)?;
+    let wrong = |message: String| match &file {
+        Some(file) => Error::file(file, message),
+        None => Error::Input(message),
+    };
+    Policy::new(rules, &dates).map(Some).map_err(wrong)
+}
