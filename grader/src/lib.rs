@@ -11,6 +11,7 @@ pub mod commands;
 pub mod error;
 pub mod grade;
 pub mod host_process;
+pub mod image_error;
 pub mod mutants;
 pub mod plan;
 pub mod reference;
