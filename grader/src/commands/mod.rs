@@ -1,5 +1,6 @@
 //! The commands of the program.
 
+mod converge;
 mod figures;
 mod grade;
 mod mutants;
@@ -22,6 +23,8 @@ struct Arguments {
 enum Command {
     /// Grade one hand-in: build it, run its checks, print points, write report.json.
     Grade(grade::Arguments),
+    /// Measure the error of hand-ins against run time, beside the solution: CSV, JSON, SVG.
+    Converge(converge::Arguments),
     /// Render the figures of the sheet with the solution (for staff).
     Figures(figures::Arguments),
     /// Grade wrong and right variants of the solution: what is caught, and what is not (for staff).
@@ -35,6 +38,7 @@ enum Command {
 pub fn run() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Grade(arguments) => grade::run(&arguments),
+        Command::Converge(arguments) => converge::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Mutants(arguments) => mutants::run(&arguments),
         Command::Reference(arguments) => reference::run(&arguments),
