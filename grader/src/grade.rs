@@ -123,6 +123,7 @@ pub fn grade(
         },
         sandbox: Sandbox { level: "none".to_owned() },
         provenance,
+        convergence: None,
     })
 }
 

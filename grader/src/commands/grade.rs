@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use arty::image::check_writable;
 
+use super::full_report;
 use crate::error::{Error, Result};
 use crate::grade::{Options, grade};
 use crate::report::{print_check, print_summary};
@@ -34,6 +35,9 @@ pub(super) struct Arguments {
     /// Exit with status 1 if fewer points than this are earned, of all automatic points
     #[arg(long, value_name = "POINTS", conflicts_with = "only", value_parser = points)]
     fail_under: Option<f64>,
+    /// Give the points only: leave out what follows them, error against run time (also left out with --only)
+    #[arg(long)]
+    no_report: bool,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
@@ -55,9 +59,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
             "building the framework that hand-ins are linked against; this is done once, and takes a minute …"
         );
     }
-    let report = grade(&workspace, &submission, &options, print_check)?;
+    let mut report = grade(&workspace, &submission, &options, print_check)?;
     report.save(&file)?;
     print_summary(&report);
+    if !arguments.no_report && arguments.only.is_empty() {
+        full_report::complete(&workspace, &submission, arguments.seed, &mut report, &file)?;
+    }
     eprintln!("report: {}", file.display());
     let too_few = arguments.fail_under.is_some_and(|least| report.points.earned < least);
     Ok(ExitCode::from(u8::from(too_few)))

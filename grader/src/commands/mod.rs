@@ -2,6 +2,7 @@
 
 mod converge;
 mod figures;
+mod full_report;
 mod grade;
 mod mutants;
 mod reference;

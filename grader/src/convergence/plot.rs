@@ -4,7 +4,6 @@ use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
-use super::table::number;
 use super::{Convergence, Curve, Panel, Role};
 
 /// Width and height of a panel in pixels.
@@ -108,8 +107,8 @@ fn draw<'a>(panel: &Panel, threads: usize, area: &Area<'a>) -> Result<(), Failur
         .bold_line_style(GRID)
         .light_line_style(TRANSPARENT)
         .axis_style(INK)
-        .x_label_formatter(&|exponent| number(10.0_f64.powf(*exponent)))
-        .y_label_formatter(&|exponent| number(10.0_f64.powf(*exponent)))
+        .x_label_formatter(&|exponent| axis_label(*exponent))
+        .y_label_formatter(&|exponent| axis_label(*exponent))
         .x_labels(6)
         .y_labels(7)
         .x_desc(format!("processor time of one rendering in seconds ({threads})"))
@@ -135,8 +134,8 @@ fn draw<'a>(panel: &Panel, threads: usize, area: &Area<'a>) -> Result<(), Failur
     }
     chart
         .configure_series_labels()
-        .position(SeriesLabelPosition::LowerLeft)
-        .background_style(PAPER)
+        .position(SeriesLabelPosition::UpperRight)
+        .background_style(PAPER.mix(0.85))
         .label_font(font(12))
         .draw()
 }
@@ -178,6 +177,12 @@ fn draw_curve<'b>(
     Ok(())
 }
 
+/// The number behind a decimal logarithm, in two digits.
+fn axis_label(exponent: f64) -> String {
+    let digits = format!("{:.1e}", 10.0_f64.powf(exponent));
+    digits.parse().map_or(digits, |value: f64| value.to_string())
+}
+
 /// The line of slope −1 through the first point of the solution, within the frame.
 fn guide(panel: &Panel, frame: &Frame) -> Option<[(f64, f64); 2]> {
     let solution = panel.curves.iter().find(|curve| curve.role == Role::Solution);
@@ -187,4 +192,72 @@ fn guide(panel: &Panel, frame: &Frame) -> Option<[(f64, f64); 2]> {
     let (first, last) =
         (frame.seconds.0.max(level - frame.error.1), frame.seconds.1.min(level - frame.error.0));
     (first < last).then(|| [(first, level - first), (last, level - last)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Estimate, Point};
+    use super::*;
+    use arty::integrator::Technique;
+
+    fn curve(role: Role, floor: f64) -> Curve {
+        let point = |k: i32| {
+            let seconds = 0.01 * 4.0_f64.powi(k);
+            let value = 0.02 / seconds + floor;
+            let around = Estimate { value, interval: [0.9 * value, 1.1 * value] };
+            Point {
+                samples: 1,
+                renders: 2,
+                seconds,
+                relative_mse: around,
+                trimmed_relative_mse: around,
+                mse: around,
+                bias_squared: around,
+                variance: around,
+            }
+        };
+        Curve {
+            name: "<b>&".to_owned(),
+            role,
+            technique: Technique::Mis,
+            points: (0..5).map(point).collect(),
+            slope: None,
+            efficiency: None,
+            seconds_to_target: None,
+            relative_bias_squared: Some(Estimate { value: floor, interval: [floor; 2] }),
+            floor: floor > 0.0,
+            non_finite: 0,
+        }
+    }
+
+    fn drawn(floor: f64) -> Option<String> {
+        let panel = Panel {
+            scene: "box".to_owned(),
+            technique: Technique::Mis,
+            max_bounces: 8,
+            target: 0.1,
+            reference_noise: 0.0,
+            curves: vec![curve(Role::Submission, floor), curve(Role::Solution, 0.0)],
+        };
+        svg(&Convergence { threads: 1, panels: vec![panel], ..Convergence::default() })
+    }
+
+    #[test]
+    fn a_plot_names_its_curves_escaped_and_shows_a_bias() {
+        let text = drawn(0.04).expect("there are points");
+        assert!(text.starts_with("<svg class=\"convergence\"") && text.contains("prefers-color-scheme"));
+        assert!(text.contains("&lt;b&gt;&amp;") && !text.contains("<b>"), "a hand-in's name is no markup");
+        assert!(text.contains("its bias: 20.0 %"));
+        assert!(!drawn(0.0).expect("there are points").contains("its bias"));
+    }
+
+    #[test]
+    fn without_points_there_is_no_plot() {
+        assert_eq!(svg(&Convergence::default()), None);
+    }
+
+    #[test]
+    fn axes_have_plain_numbers() {
+        assert_eq!([-2.5, 0.0, 1.0, 2.5].map(axis_label), ["0.0032", "1", "10", "320"]);
+    }
 }

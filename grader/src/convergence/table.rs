@@ -15,7 +15,7 @@ pub fn print_table(convergence: &Convergence) {
 
 fn write(out: &mut impl Write, convergence: &Convergence) -> io::Result<()> {
     for panel in &convergence.panels {
-        writeln!(out, "{}, {}, {} bounces", panel.scene, panel.technique, panel.max_bounces)?;
+        writeln!(out, "\n{}, {}, {} bounces", panel.scene, panel.technique, panel.max_bounces)?;
         writeln!(out, "{}", table(panel))?;
     }
     let threads =
@@ -40,7 +40,7 @@ fn table(panel: &Panel) -> Table {
         "slope (−1)".to_owned(),
         "bias".to_owned(),
         "efficiency".to_owned(),
-        format!("to {}", number(panel.target)),
+        format!("time to {}", number(panel.target)),
     ]);
     for curve in &panel.curves {
         let last = curve.points.last();

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::build::BuildFailure;
 use crate::checks::Weights;
+use crate::convergence::Convergence;
 use crate::error::Result;
 use crate::rubric::CheckKind;
 
@@ -45,6 +46,9 @@ pub struct Report {
     pub sandbox: Sandbox,
     /// What the grade rests on.
     pub provenance: BTreeMap<String, String>,
+    /// Error against run time, where it was measured: that begins when the points stand, and changes none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub convergence: Option<Convergence>,
 }
 
 /// What was graded.

@@ -1,0 +1,42 @@
+//! What a grade does once its points stand: it measures error against run time, and completes the report.
+
+use std::path::Path;
+
+use crate::build::{Framework, HandInProgram, compile};
+use crate::convergence::{brief, print_table};
+use crate::error::Result;
+use crate::report::Report;
+use crate::submission::Submission;
+use crate::workspace::Workspace;
+
+/// Completes a report and saves it again. The points do not change.
+pub(super) fn complete(
+    workspace: &Workspace,
+    submission: &Submission,
+    seed: u64,
+    report: &mut Report,
+    file: &Path,
+) -> Result<()> {
+    if report.submission.build_failure.is_none() {
+        eprintln!("measuring error against run time, for no points (--no-report leaves it out) …");
+        let framework = Framework::build(workspace)?;
+        let (hand_in, solution) =
+            rayon::join(|| compile(&framework, &submission.source), || solution(workspace, &framework));
+        if let Ok(hand_in) = hand_in? {
+            let convergence = brief(workspace, &hand_in, solution?.as_ref(), seed)?;
+            println!("\nError against run time, for no points");
+            print_table(&convergence);
+            report.convergence = Some(convergence);
+        }
+    }
+    report.save(file)
+}
+
+/// The solution, in a checkout that has one which compiles.
+fn solution(workspace: &Workspace, framework: &Framework) -> Result<Option<HandInProgram>> {
+    let path = workspace.solution_file();
+    if !path.is_file() {
+        return Ok(None);
+    }
+    Ok(compile(framework, &Submission::read(&path)?.source)?.ok())
+}
