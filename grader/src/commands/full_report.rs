@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::build::{Framework, HandInProgram, compile};
-use crate::convergence::{brief, print_table};
+use crate::convergence::{brief, print_sentences};
 use crate::error::Result;
 use crate::report::Report;
 use crate::submission::Submission;
@@ -25,7 +25,7 @@ pub(super) fn complete(
         if let Ok(hand_in) = hand_in? {
             let convergence = brief(workspace, &hand_in, solution?.as_ref(), seed)?;
             println!("\nError against run time, for no points");
-            print_table(&convergence);
+            print_sentences(&convergence);
             report.convergence = Some(convergence);
         }
     }

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use arty::image::check_writable;
 
-use super::full_report;
+use super::{full_report, watch};
 use crate::error::{Error, Result};
 use crate::grade::{Options, grade};
 use crate::report::{print_check, print_summary};
@@ -38,6 +38,9 @@ pub(super) struct Arguments {
     /// Give the points only: leave out what follows them, error against run time (also left out with --only)
     #[arg(long)]
     no_report: bool,
+    /// Grade again on every save, and show one short table; Ctrl-C ends it
+    #[arg(long, conflicts_with = "fail_under")]
+    watch: bool,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
@@ -58,6 +61,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         eprintln!(
             "building the framework that hand-ins are linked against; this is done once, and takes a minute …"
         );
+    }
+    if arguments.watch {
+        watch::watch(&workspace, &submission.path, &options, &file)?;
     }
     let mut report = grade(&workspace, &submission, &options, print_check)?;
     report.save(&file)?;

@@ -7,6 +7,7 @@ mod grade;
 mod mutants;
 mod reference;
 mod trusted;
+mod watch;
 
 use std::process::ExitCode;
 

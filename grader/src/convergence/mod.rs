@@ -27,7 +27,7 @@ pub use brief::brief;
 pub use export::{save_csv, save_json};
 pub use measure::{Contestant, Options, measure};
 pub use plot::svg;
-pub use table::print_table;
+pub use table::{print_sentences, print_table, sentences};
 
 /// The scenes that tell most: diffuse with a small light, glossy with a large one, both at once, very many lights.
 pub const TELLING_SCENES: [&str; 4] = ["cornell_box", "cornell_box_glossy", "veach_mis", "many_lights"];

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
 use comfy_table::{Cell, CellAlignment, ContentArrangement, Table};
 
-use super::{Convergence, Curve, Estimate, Panel};
+use super::{Convergence, Curve, Estimate, Panel, Role};
 
 /// Prints one table for each scene and technique.
 pub fn print_table(convergence: &Convergence) {
@@ -29,6 +29,51 @@ fn write(out: &mut impl Write, convergence: &Convergence) -> io::Result<()> {
         writeln!(out, "left out: {}{place}: {}", left_out.check, left_out.why)?;
     }
     Ok(())
+}
+
+/// Prints one sentence for each hand-in and scene.
+pub fn print_sentences(convergence: &Convergence) {
+    for panel in &convergence.panels {
+        for sentence in sentences(panel) {
+            // Nobody may be reading any more.
+            let _ = writeln!(io::stdout(), "{sentence}");
+        }
+    }
+    for left_out in &convergence.left_out {
+        let _ = writeln!(io::stdout(), "left out: {}: {}", left_out.check, left_out.why);
+    }
+}
+
+/// What a panel says of each hand-in.
+pub fn sentences(panel: &Panel) -> Vec<String> {
+    let hand_ins = panel.curves.iter().filter(|curve| curve.role == Role::Submission);
+    let sentence = |curve: &Curve| {
+        let point = curve.points.last()?;
+        let mut text = format!(
+            "{}, {}: relative MSE {} after {} s",
+            panel.scene,
+            panel.technique,
+            number(point.relative_mse.value),
+            number(point.seconds)
+        );
+        for (name, other) in [("the solution", Role::Solution), ("BSDF sampling", Role::Baseline)] {
+            let others = panel.curves.iter().find(|curve| curve.role == other);
+            if let Some(other) = others.and_then(|curve| curve.points.last()) {
+                text += &format!(", {name} {}", number(other.relative_mse.value));
+            }
+        }
+        if let Some(slope) = curve.slope {
+            text += &format!("; slope {} (−1 is right)", with_interval(slope));
+        }
+        if let Some(efficiency) = curve.efficiency {
+            text += &format!("; efficiency {} of the solution's", with_interval(efficiency));
+        }
+        if curve.floor {
+            text += &format!("; it flattens: a bias of {} stays", bias(curve));
+        }
+        Some(text)
+    };
+    hand_ins.filter_map(sentence).collect()
 }
 
 fn table(panel: &Panel) -> Table {
