@@ -321,11 +321,14 @@ fn an_interruption_saves_what_is_there() {
 #[test]
 fn the_error_against_a_reference_is_printed_and_saved() {
     let folder = Folder::new();
-    folder.render("scene.yml --width=20 --samples=256 --seed=9 --technique=bsdf -o reference.exr");
+    folder.render(
+        "scene.yml --width=20 --samples=256 --seed=9 --technique=bsdf --max-bounces=1 -o reference.exr",
+    );
     let run = folder.render("scene.yml --samples=64 --technique=bsdf --reference=reference.exr");
     assert!(run.stdout.contains("64 samples") && run.stdout.contains("relMSE"), "{}", run.stdout);
     let picture = image::open(folder.path("scene.png")).expect("a PNG file");
     assert_eq!((picture.width(), picture.height()), (20, 15), "the size is that of the reference");
+    assert!(run.stderr.contains("1 bounce)"), "and so are the bounces: {}", run.stderr);
     let table = fs::read_to_string(folder.path("scene.errors.csv")).expect("the table is there");
     let rows: Vec<Vec<f64>> = table
         .lines()

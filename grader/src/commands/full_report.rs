@@ -1,15 +1,15 @@
-//! What a grade does once its points stand: it measures error against run time, and completes the report.
+//! What a grade does once its points stand: error against run time, pictures, and the report as a page.
 
 use std::path::Path;
 
 use crate::build::{Framework, HandInProgram, compile};
 use crate::convergence::{brief, print_sentences};
 use crate::error::Result;
-use crate::report::Report;
+use crate::report::{Report, page, pictures};
 use crate::submission::Submission;
 use crate::workspace::Workspace;
 
-/// Completes a report and saves it again. The points do not change.
+/// Completes a report, saves it again, and writes it as `report.html` beside it. The points do not change.
 pub(super) fn complete(
     workspace: &Workspace,
     submission: &Submission,
@@ -17,6 +17,7 @@ pub(super) fn complete(
     report: &mut Report,
     file: &Path,
 ) -> Result<()> {
+    let mut shown = Vec::new();
     if report.submission.build_failure.is_none() {
         eprintln!("measuring error against run time, for no points (--no-report leaves it out) …");
         let framework = Framework::build(workspace)?;
@@ -27,9 +28,14 @@ pub(super) fn complete(
             println!("\nError against run time, for no points");
             print_sentences(&convergence);
             report.convergence = Some(convergence);
+            shown = pictures(workspace, &hand_in, report, rayon::current_num_threads(), seed)?;
         }
     }
-    report.save(file)
+    report.save(file)?;
+    let text = page(report, &shown);
+    let file = file.with_extension("html");
+    arty::image::write_aside(&file, |writer| std::io::Write::write_all(writer, text.as_bytes()))?;
+    Ok(())
 }
 
 /// The solution, in a checkout that has one which compiles.

@@ -20,7 +20,7 @@ pub(super) struct Arguments {
     /// The assignment: a folder below assignments/
     #[arg(long, default_value = "05-nee-mis")]
     assignment: String,
-    /// Folder for report.json; it is made if it is not there
+    /// Folder for report.json and report.html; it is made if it is not there
     #[arg(long, value_name = "DIR", default_value = "report")]
     out: PathBuf,
     /// Seed of all random numbers: the same seed gives the same verdicts
@@ -35,7 +35,7 @@ pub(super) struct Arguments {
     /// Exit with status 1 if fewer points than this are earned, of all automatic points
     #[arg(long, value_name = "POINTS", conflicts_with = "only", value_parser = points)]
     fail_under: Option<f64>,
-    /// Give the points only: leave out what follows them, error against run time (also left out with --only)
+    /// Give the points only: leave out what follows them, error against run time and report.html (also left out with --only)
     #[arg(long)]
     no_report: bool,
     /// Grade again on every save, and show one short table; Ctrl-C ends it

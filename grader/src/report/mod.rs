@@ -1,5 +1,7 @@
 //! What a grade has found. `report.json` holds all of it; every other format is made from that.
 
+mod page;
+mod pictures;
 mod terminal;
 
 use std::collections::BTreeMap;
@@ -14,6 +16,8 @@ use crate::convergence::Convergence;
 use crate::error::Result;
 use crate::rubric::CheckKind;
 
+pub use page::page;
+pub use pictures::{Picture, pictures};
 pub use terminal::{print_check, print_summary};
 
 /// The version of the format.

@@ -82,7 +82,7 @@ pub(super) struct Args {
 
     /// Prints and saves the error against this OpenEXR picture while rendering (relative MSE, MSE)
     ///
-    /// The picture gets the size of the reference unless --width or --height say otherwise, which is an error then.
+    /// The picture gets the size of the reference, which --width and --height must not contradict, and its bounces.
     /// A layer `variance` in the reference (the program saves one) is subtracted: it is the reference's own noise.
     /// There are pictures to compare with in references/pictures.
     #[arg(long, value_name = "REF.exr", help_heading = OUTPUT)]

@@ -3,9 +3,11 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
+use super::Algorithm;
 use super::args::Args;
 use super::exit::Failure;
 use super::messages;
+use super::numbers::counted;
 use super::plan::Plan;
 use super::progress::Progress;
 use crate::film::Film;
@@ -26,6 +28,8 @@ pub(super) struct Reference {
     path: PathBuf,
     width: u32,
     height: u32,
+    /// How often its paths were scattered at most, where the file says so.
+    max_bounces: Option<u32>,
     mean: Vec<[f64; 3]>,
     /// The variance of the mean, where the file has it.
     variance: Option<Vec<[f64; 3]>>,
@@ -53,12 +57,14 @@ impl Reference {
         let (Ok(width), Ok(height)) = sides else { return Err(refuse("it is too large")) };
         let variance = file.layer("variance").map(|layer| values(&layer));
         let variance = variance.filter(|list| list.iter().flatten().all(|value| value.is_finite()));
-        Ok(Some(Self { path: path.clone(), width, height, mean: values(&picture), variance }))
+        let max_bounces = file.metadata.get("arty:max_bounces").and_then(|text| text.parse().ok());
+        Ok(Some(Self { path: path.clone(), width, height, max_bounces, mean: values(&picture), variance }))
     }
 
-    /// The defaults of a scene with the size of this picture.
-    pub(super) fn sized(&self, defaults: Defaults) -> Defaults {
-        Defaults { width: Some(self.width), height: Some(self.height), ..defaults }
+    /// The defaults of a scene with the size of this picture, and as many bounces.
+    pub(super) fn defaults(&self, of_scene: Defaults) -> Defaults {
+        let max_bounces = self.max_bounces.or(of_scene.max_bounces);
+        Defaults { width: Some(self.width), height: Some(self.height), max_bounces }
     }
 
     fn truth(&self) -> Truth<'_> {
@@ -85,7 +91,7 @@ impl ErrorLog {
     ///
     /// If the picture is to have another size than the reference, or the file cannot be written.
     pub(super) fn new(reference: Reference, args: &Args, plan: &Plan) -> Result<Self, Failure> {
-        let Reference { width, height, ref path, .. } = reference;
+        let Reference { width, height, max_bounces, ref path, .. } = reference;
         if (width, height) != (plan.width, plan.height) {
             let message = format!(
                 "the reference has {width} x {height} pixels and the picture is to have {} x {}; \
@@ -93,6 +99,16 @@ impl ErrorLog {
                 plan.width, plan.height
             );
             return Err(Diagnostic::about(path, message).into());
+        }
+        if let (Algorithm::PathTracer(settings), Some(bounces)) = (plan.algorithm, max_bounces)
+            && settings.max_bounces != bounces
+        {
+            let message = format!(
+                "it has up to {}, the picture {}",
+                counted(bounces.into(), "bounce"),
+                settings.max_bounces
+            );
+            messages::warning(Diagnostic::about(path, message));
         }
         let file = args.errors.clone().unwrap_or_else(|| default_file(&args.scene));
         check_writable(&file)?;

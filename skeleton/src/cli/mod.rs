@@ -97,7 +97,8 @@ fn execute(args: &Args, make: impl FnOnce(Algorithm) -> Box<dyn Integrator>) -> 
     scene.warnings().iter().for_each(messages::warning);
 
     let reference = Reference::open(args, &loaded.description)?;
-    let defaults = reference.as_ref().map_or(scene.defaults(), |reference| reference.sized(scene.defaults()));
+    let defaults =
+        reference.as_ref().map_or(scene.defaults(), |reference| reference.defaults(scene.defaults()));
     let plan = Plan::new(args, defaults)?;
     let mut errors = reference.map(|reference| ErrorLog::new(reference, args, &plan)).transpose()?;
     plan.outputs.iter().try_for_each(|output| output.check())?;
