@@ -84,7 +84,8 @@ pub(super) struct Args {
     ///
     /// The picture gets the size of the reference, which --width and --height must not contradict, and its bounces.
     /// A layer `variance` in the reference (the program saves one) is subtracted: it is the reference's own noise.
-    /// There are pictures to compare with in references/pictures.
+    /// There are pictures to compare with in references/pictures. They have 256 samples per pixel and say nothing of
+    /// their noise: errors close to it flatten. Render a reference of your own for long curves.
     #[arg(long, value_name = "REF.exr", help_heading = OUTPUT)]
     pub(super) reference: Option<PathBuf>,
 

@@ -143,7 +143,10 @@ fn row(check: &CheckResult) -> Markup {
                 @if check.evidence { br; span.soft { "no points without it" } }
             }
             td class=(class) { (word) }
-            td { (check.explanation) @if check.verdict != Verdict::Pass { br; code { (check.repeat) } } }
+            td {
+                (check.explanation)
+                details.again { summary { "again" } code { (check.repeat) } }
+            }
             td.number { @if let Some(effect) = check.effect { (percent(effect)) } }
             td.number { @if let Some([low, high]) = check.interval { (percent(low)) br; (percent(high)) } }
             td.number { @if let Some(detectable) = check.detectable { (format!("{:.2} %", 100.0 * detectable)) } }

@@ -18,7 +18,7 @@ const curves = {
   reinhard: (x) => Math.max(0, x) / (1 + Math.max(0, x)),
   aces: (x) => { x = 0.6 * Math.max(0, x); return Math.min(1, (x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14)); },
 };
-// Blue is too dark, red too bright, black is right.
+// Blue is too dark, orange too bright, black is right.
 const signed = (t) => { t = Math.max(-1, Math.min(1, t)); return t < 0 ? [0, -0.55 * t, -t] : [t, 0.45 * t, 0]; };
 // Black, purple, orange, white.
 const heat = (t) => [Math.min(1, 1.8 * t), Math.max(0, 1.6 * t - 0.5), Math.max(0, t < 0.4 ? 1.5 * t : t < 0.7 ? 1.4 - 2 * t : 3.3 * t - 2.3)];

@@ -40,7 +40,7 @@ pub(super) fn figure(index: usize, picture: &Picture) -> Markup {
                     p { label { "tone map " select name={ "curve" (index) } {
                         option value="clip" { "sRGB, cut off" } option value="aces" { "ACES" } option value="reinhard" { "Reinhard" }
                     } } }
-                    p.soft { "In difference and z, red is too bright and blue too dark. z takes in 5 × 5 pixels." }
+                    p.soft { "In difference and z, orange is too bright and blue too dark. z takes in 5 × 5 pixels." }
                     pre.probe {}
                 }
             }
