@@ -191,7 +191,7 @@ fn guide(panel: &Panel, frame: &Frame) -> Option<[(f64, f64); 2]> {
     let level = start.relative_mse.value.log10() + start.seconds.log10();
     let (first, last) =
         (frame.seconds.0.max(level - frame.error.1), frame.seconds.1.min(level - frame.error.0));
-    (first < last).then(|| [(first, level - first), (last, level - last)])
+    (first < last).then_some([(first, level - first), (last, level - last)])
 }
 
 #[cfg(test)]
