@@ -62,7 +62,7 @@ fn a_biased_program_flattens_beside_the_solution() {
         assert!((parts - point.mse.value).abs() < 1e-9 * point.mse.value, "{point:?}");
     }
 
-    assert!(svg(&convergence).expect("there are curves").contains("its bias"));
+    assert!(svg(&convergence).expect("there are curves").contains(", bias "));
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("errors.csv");
     save_csv(&convergence, &file).expect("it can be written");

@@ -1,10 +1,10 @@
 //! What a grade does once its points stand: error against run time, pictures, and the report as a page.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::build::{Framework, HandInProgram, compile};
 use crate::convergence::{brief, print_sentences};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::report::{Report, page, pictures};
 use crate::submission::Submission;
 use crate::workspace::Workspace;
@@ -33,9 +33,25 @@ pub(super) fn complete(
     }
     report.save(file)?;
     let text = page(report, &shown);
-    let file = file.with_extension("html");
-    arty::image::write_aside(&file, |writer| std::io::Write::write_all(writer, text.as_bytes()))?;
+    arty::image::write_aside(&page_beside(file), |writer| {
+        std::io::Write::write_all(writer, text.as_bytes())
+    })?;
     Ok(())
+}
+
+/// Removes the page of an earlier grade, which would lie beside the report of another.
+pub(super) fn remove_page(file: &Path) -> Result<()> {
+    match std::fs::remove_file(page_beside(file)) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            Err(Error::file(&page_beside(file), error))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// `report.html` beside `report.json`.
+fn page_beside(file: &Path) -> PathBuf {
+    file.with_extension("html")
 }
 
 /// The solution, in a checkout that has one which compiles.

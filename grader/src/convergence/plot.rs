@@ -81,9 +81,18 @@ impl Frame {
         let floors = panel.curves.iter().filter_map(floor);
         Some(Self {
             seconds: range(&mut drawn().map(|point| point.seconds), 0.12)?,
-            error: range(&mut ends.chain(floors), 0.15)?,
+            error: with_room(range(&mut ends.chain(floors), 0.15)?, panel.curves.len() + 1),
         })
     }
+}
+
+/// A range with room above it for as many lines of text as the names of the curves take.
+fn with_room((least, most): (f64, f64), lines: usize) -> (f64, f64) {
+    const LINE: f64 = 16.0;
+    const HEIGHT: f64 = PANEL.1 as f64 - 90.0;
+    let share = ((lines as f64 + 1.0) * LINE / HEIGHT).min(0.5);
+    // Curves fall, and the names stand on the right: half of the room is there anyway.
+    (least, most + 0.5 * share / (1.0 - share) * (most - least))
 }
 
 /// Where a curve flattens.
@@ -153,9 +162,10 @@ fn draw_curve<'b>(
         usable.clone().map(|point| (point.seconds.log10(), point.relative_mse.value.log10())).collect();
     let width = if curve.role == Role::Submission { 3 } else { 2 };
     let slope = curve.slope.map_or(String::new(), |slope| format!(", slope {:.2}", slope.value));
+    let bias = floor(curve).map_or(String::new(), |bias| format!(", bias {:.1} %", 100.0 * bias.sqrt()));
     chart
         .draw_series(LineSeries::new(at.clone(), color.stroke_width(width)))?
-        .label(format!("{}{slope}", curve.name))
+        .label(format!("{}{slope}{bias}", curve.name))
         .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], color.stroke_width(width)));
     chart.draw_series(at.iter().map(|&place| Circle::new(place, 3, color.filled())))?;
     // A bar to zero or below ends at the edge of the plot.
@@ -168,11 +178,7 @@ fn draw_curve<'b>(
     chart.draw_series(bars)?;
     if let Some(bias) = floor(curve) {
         let line = [(frame.seconds.0, bias.log10()), (frame.seconds.1, bias.log10())];
-        let text = format!("its bias: {:.1} %", 100.0 * bias.sqrt());
-        chart
-            .draw_series(DashedLineSeries::new(line, 7, 5, color.stroke_width(1)))?
-            .label(text)
-            .legend(move |(x, y)| PathElement::new([(x, y), (x + 7, y)], color));
+        chart.draw_series(DashedLineSeries::new(line, 7, 5, color.stroke_width(1)))?;
     }
     Ok(())
 }
@@ -247,8 +253,8 @@ mod tests {
         let text = drawn(0.04).expect("there are points");
         assert!(text.starts_with("<svg class=\"convergence\"") && text.contains("prefers-color-scheme"));
         assert!(text.contains("&lt;b&gt;&amp;") && !text.contains("<b>"), "a hand-in's name is no markup");
-        assert!(text.contains("its bias: 20.0 %"));
-        assert!(!drawn(0.0).expect("there are points").contains("its bias"));
+        assert!(text.contains("bias 20.0 %"));
+        assert!(!drawn(0.0).expect("there are points").contains("bias"));
     }
 
     #[test]
