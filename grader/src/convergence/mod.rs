@@ -15,6 +15,7 @@ mod estimate;
 mod export;
 mod measure;
 mod plot;
+mod racer;
 mod summary;
 mod table;
 
