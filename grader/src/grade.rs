@@ -176,6 +176,7 @@ impl Grader {
             },
             sandbox,
             provenance: provenance.clone(),
+            convergence: None,
         })
     }
 }

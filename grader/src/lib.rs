@@ -3,16 +3,18 @@
 //! The way of a hand-in: [`intake`] finds the [`submission`] in what was sent, [`build`] makes a program of it,
 //! [`host_process`] runs that program in a [`sandbox`], [`checks`] ask it for numbers and judge them with [`statistics`] against [`mod@reference`]s or closed
 //! forms, [`mod@grade`] turns verdicts into points by the [`rubric`], [`report`] says what was found. [`mutants`] holds all of it to
-//! hand-ins whose mistakes are known.
+//! hand-ins whose mistakes are known; [`convergence`] measures error against run time, for no points.
 
 pub mod build;
 pub mod calibration;
 pub mod checks;
 pub mod class;
 pub mod commands;
+pub mod convergence;
 pub mod error;
 pub mod grade;
 pub mod host_process;
+pub mod image_error;
 pub mod intake;
 pub mod mutants;
 pub mod plan;

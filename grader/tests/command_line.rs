@@ -45,8 +45,19 @@ fn a_grade_ends_with_0_whatever_the_points_unless_fewer_than_asked_for() {
     ] {
         assert!(!report[key].is_null(), "{key}");
     }
+    assert!(
+        report["convergence"].is_null() && !folder.path().join("here/report.html").exists(),
+        "--only is short"
+    );
     let too_few = grader(folder.path(), &["grade", &file, "--fail-under=1"]);
     assert_eq!(too_few.status.code(), Some(1), "{}", stderr(&too_few));
+    // What follows the points is there although they are too few, and of a size that can be sent by mail.
+    let page = std::fs::read_to_string(folder.path().join("report/report.html")).expect("the page is there");
+    assert!(
+        page.contains("<svg class=\"convergence\"") && page.contains("data-plane"),
+        "a plot and pictures"
+    );
+    assert!(page.len() < 3_000_000, "{} bytes", page.len());
 }
 
 #[test]

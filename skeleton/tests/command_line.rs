@@ -317,3 +317,43 @@ fn an_interruption_saves_what_is_there() {
     assert_eq!(metadata["arty:interrupted"], "true");
     assert!(metadata["arty:samples_per_pixel"].parse::<u64>().is_ok_and(|samples| samples > 0));
 }
+
+#[test]
+fn the_error_against_a_reference_is_printed_and_saved() {
+    let folder = Folder::new();
+    folder.render(
+        "scene.yml --width=20 --samples=256 --seed=9 --technique=bsdf --max-bounces=1 -o reference.exr",
+    );
+    let run = folder.render("scene.yml --samples=64 --technique=bsdf --reference=reference.exr");
+    assert!(run.stdout.contains("64 samples") && run.stdout.contains("relMSE"), "{}", run.stdout);
+    let picture = image::open(folder.path("scene.png")).expect("a PNG file");
+    assert_eq!((picture.width(), picture.height()), (20, 15), "the size is that of the reference");
+    assert!(run.stderr.contains("1 bounce)"), "and so are the bounces: {}", run.stderr);
+    let table = fs::read_to_string(folder.path("scene.errors.csv")).expect("the table is there");
+    let rows: Vec<Vec<f64>> = table
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').map(|cell| cell.parse().expect("a number")).collect())
+        .collect();
+    assert!(table.starts_with("samples_per_pixel,seconds,relative_mse,") && rows.len() > 2, "{table}");
+    assert_eq!(rows.last().map(|row| row[0]), Some(64.0));
+    assert!(rows.windows(2).all(|pair| pair[0][0] < pair[1][0] && pair[0][1] <= pair[1][1]), "{table}");
+    // The error of the first sample is dozens of times that of all 64, with this seed.
+    assert!(rows[0][2] > 4.0 * rows[rows.len() - 1][2], "{table}");
+}
+
+#[test]
+fn a_reference_of_another_size_or_kind_is_refused_before_anything_is_rendered() {
+    let folder = Folder::new();
+    folder.render("scene.yml --width=20 --samples=1 -o reference.exr");
+    for (arguments, expected) in [
+        ("scene.yml --reference=reference.exr --width=30", "20 x 15 pixels"),
+        ("scene.yml --reference=missing.exr", "missing.exr"),
+        ("scene.yml --reference=scene.yml", "scene.yml"),
+    ] {
+        let run = folder.run(arguments);
+        assert_eq!(run.status, Some(2), "{arguments}: {}", run.stderr);
+        assert!(run.stderr.contains(expected), "{arguments}: {}", run.stderr);
+    }
+    assert!(!folder.path("scene.errors.csv").exists() && !folder.path("scene.png").exists());
+}

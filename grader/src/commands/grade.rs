@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use arty::image::check_writable;
 
+use super::{full_report, watch};
 use crate::error::{Error, Result};
 use crate::grade::{Options, grade};
 use crate::report::{print_check, print_summary};
@@ -20,7 +21,7 @@ pub(super) struct Arguments {
     /// The assignment: a folder below assignments/
     #[arg(long, default_value = "05-nee-mis")]
     assignment: String,
-    /// Folder for report.json; it is made if it is not there
+    /// Folder for report.json and report.html; it is made if it is not there
     #[arg(long, value_name = "DIR", default_value = "report")]
     out: PathBuf,
     /// Seed of all random numbers: the same seed gives the same verdicts
@@ -35,6 +36,12 @@ pub(super) struct Arguments {
     /// Exit with status 1 if fewer points than this are earned, of all automatic points
     #[arg(long, value_name = "POINTS", conflicts_with = "only", value_parser = points)]
     fail_under: Option<f64>,
+    /// Give the points only: leave out what follows them, error against run time and report.html (also left out with --only)
+    #[arg(long)]
+    no_report: bool,
+    /// Grade again on every save, and show one short table; Ctrl-C ends it
+    #[arg(long, conflicts_with = "fail_under")]
+    watch: bool,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
@@ -52,14 +59,25 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let file = arguments.out.join("report.json");
     std::fs::create_dir_all(&arguments.out).map_err(|error| Error::file(&arguments.out, error))?;
     check_writable(&file)?;
+    full_report::remove_page(&file)?;
     if !workspace.framework_target().exists() {
         eprintln!(
             "building the framework that hand-ins are linked against; this is done once, and takes a minute …"
         );
     }
-    let report = grade(&workspace, &submission, &options, print_check)?;
+    if arguments.watch {
+        watch::watch(&workspace, &submission.path, &options, &file)?;
+    }
+    let mut report = grade(&workspace, &submission, &options, print_check)?;
     report.save(&file)?;
     print_summary(&report);
+    if !arguments.no_report && arguments.only.is_empty() {
+        let completed = full_report::complete(&workspace, &submission, arguments.seed, &mut report, &file);
+        if let Err(error) = completed {
+            // The points stand and are saved: whoever waits for them must not be told that grading failed.
+            eprintln!("warning: the report is not complete: {error}");
+        }
+    }
     eprintln!("report: {}", file.display());
     let too_few = arguments.fail_under.is_some_and(|least| report.points.earned < least);
     Ok(ExitCode::from(u8::from(too_few)))

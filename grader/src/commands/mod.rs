@@ -2,8 +2,10 @@
 
 mod calibrate;
 mod class;
+mod converge;
 mod doctor;
 mod figures;
+mod full_report;
 mod grade;
 mod mutants;
 mod pack;
@@ -11,6 +13,7 @@ mod plan;
 mod policy;
 mod reference;
 mod trusted;
+mod watch;
 
 use std::process::ExitCode;
 
@@ -36,6 +39,8 @@ enum Command {
     Class(class::Arguments),
     /// Pack your hand-in: checks that it compiles, packs it, prints its MD5 checksum.
     Pack(pack::Arguments),
+    /// Measure the error of hand-ins against run time, beside the solution: CSV, JSON, SVG.
+    Converge(converge::Arguments),
     /// Render the figures of the sheet with the solution (for staff).
     Figures(figures::Arguments),
     /// Grade wrong and right variants of the solution: what is caught, and what is not (for staff).
@@ -55,6 +60,7 @@ pub fn run() -> ExitCode {
         Command::Doctor(arguments) => doctor::run(&arguments),
         Command::Class(arguments) => class::run_class(&arguments),
         Command::Pack(arguments) => pack::run(&arguments),
+        Command::Converge(arguments) => converge::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Mutants(arguments) => mutants::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),

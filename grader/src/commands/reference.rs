@@ -73,7 +73,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
                 PICTURE_SAMPLES,
                 arguments.seed,
             )?;
-            let file = ExrFile::new(&picture).with_metadata("arty:scene_hash", description.hash());
+            let file = ExrFile::new(&picture)
+                .with_metadata("arty:scene_hash", description.hash())
+                .with_metadata("arty:max_bounces", max_bounces.to_string());
             let path = workspace.picture_file(scene);
             make_folder_of(&path)?;
             file.write(&path, Precision::Half)?;

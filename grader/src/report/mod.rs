@@ -1,5 +1,7 @@
 //! What a grade has found. `report.json` holds all of it; every other format is made from that.
 
+mod page;
+mod pictures;
 mod terminal;
 
 use std::collections::BTreeMap;
@@ -10,11 +12,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::build::BuildFailure;
 use crate::checks::Weights;
+use crate::convergence::Convergence;
 use crate::error::Result;
 use crate::rubric::CheckKind;
 use crate::sandbox::{Layers, Level, both, missing};
 use crate::scan::Finding;
 
+pub use page::page;
+pub use pictures::{Picture, pictures};
 pub use terminal::{print_check, print_summary};
 
 /// The version of the format.
@@ -47,6 +52,9 @@ pub struct Report {
     pub sandbox: Sandbox,
     /// What the grade rests on.
     pub provenance: BTreeMap<String, String>,
+    /// Error against run time, where it was measured: that begins when the points stand, and changes none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub convergence: Option<Convergence>,
 }
 
 /// What was graded.

@@ -80,6 +80,19 @@ pub(super) struct Args {
           default_missing_value = tev::DEFAULT_ADDRESS, help_heading = OUTPUT)]
     pub(super) tev: Option<String>,
 
+    /// Prints and saves the error against this OpenEXR picture while rendering (relative MSE, MSE)
+    ///
+    /// The picture gets the size of the reference, which --width and --height must not contradict, and its bounces.
+    /// A layer `variance` in the reference (the program saves one) is subtracted: it is the reference's own noise.
+    /// There are pictures to compare with in references/pictures. They have 256 samples per pixel and say nothing of
+    /// their noise: errors close to it flatten. Render a reference of your own for long curves.
+    #[arg(long, value_name = "REF.exr", help_heading = OUTPUT)]
+    pub(super) reference: Option<PathBuf>,
+
+    /// Where to save the errors that --reference gives, as CSV [default: `<scene>.errors.csv`, here]
+    #[arg(long, value_name = "FILE.csv", requires = "reference", help_heading = OUTPUT)]
+    pub(super) errors: Option<PathBuf>,
+
     /// Number of threads [default: one for each processor]
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024), help_heading = OTHER)]
     pub(super) threads: Option<u16>,
@@ -122,6 +135,8 @@ Examples:
       Ten seconds of work, as a picture to look at and one to compute with.
   arty scenes/cornell_box.yml --algo=debug --show=normals -s 4
       Are the surfaces where they should be?
+  arty scenes/cornell_box.yml --time=20 --reference=references/pictures/cornell_box.exr
+      Also the error after 1, 2, 4, … samples, as cornell_box.errors.csv, to plot over time.
   arty scenes/cornell_box.yml --samples=100000 --tev
       Watch it grow in tev; Ctrl-C stops and saves what is there, twice Ctrl-C quits at once.
 
@@ -141,11 +156,17 @@ impl Args {
         let args = Self::try_parse_from(original_options::rewrite(arguments))?;
         if args.show.is_some() && args.algo != Algo::Debug {
             let message = "--show is about --algo=debug, which is not asked for";
-            return Err(<Self as clap::CommandFactory>::command()
-                .error(clap::error::ErrorKind::ArgumentConflict, message));
+            return Err(conflict(message));
+        }
+        if args.reference.is_some() && args.algo == Algo::Debug {
+            return Err(conflict("--reference is about light: it cannot go with --algo=debug"));
         }
         Ok(args)
     }
+}
+
+fn conflict(message: &str) -> clap::Error {
+    <Args as clap::CommandFactory>::command().error(clap::error::ErrorKind::ArgumentConflict, message)
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {
@@ -241,6 +262,8 @@ mod tests {
             ("arty x.yml --seed=-1", "--seed"),
             ("arty x.yml --max-bounces=1.5", "--max-bounces"),
             ("arty x.yml --show=albedo", "--algo=debug"),
+            ("arty x.yml --algo=debug --reference=x.exr", "--algo=debug"),
+            ("arty x.yml --errors=x.csv", "--reference"),
             ("arty x.yml y.yml", "y.yml"),
             ("arty x.yml --samples=1 --samples=2", "--samples"),
         ];

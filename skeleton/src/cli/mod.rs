@@ -7,9 +7,11 @@
 //! | `session`, `passes` | rendering in passes, until the limits are reached or someone interrupts |
 //! | `progress`, `live`, `messages`, `numbers`, `notes` | what is said and shown meanwhile |
 //! | `output` | picture files |
+//! | `errors` | the error against a reference |
 //! | `exit` | what a run ends with |
 
 mod args;
+mod errors;
 mod exit;
 mod inspect;
 mod interrupt;
@@ -30,6 +32,7 @@ use crate::integrator::{Integrator, Settings};
 use crate::scene::{Scene, file};
 
 use self::args::Args;
+use self::errors::{ErrorLog, Reference};
 use self::exit::{Exit, Failure};
 use self::live::Live;
 use self::output::Provenance;
@@ -93,7 +96,11 @@ fn execute(args: &Args, make: impl FnOnce(Algorithm) -> Box<dyn Integrator>) -> 
     loaded.warnings.iter().for_each(messages::warning);
     scene.warnings().iter().for_each(messages::warning);
 
-    let plan = Plan::new(args, scene.defaults())?;
+    let reference = Reference::open(args, &loaded.description)?;
+    let defaults =
+        reference.as_ref().map_or(scene.defaults(), |reference| reference.defaults(scene.defaults()));
+    let plan = Plan::new(args, defaults)?;
+    let mut errors = reference.map(|reference| ErrorLog::new(reference, args, &plan)).transpose()?;
     plan.outputs.iter().try_for_each(|output| output.check())?;
     let provenance = Provenance::new(&args.scene, &loaded.description, &plan);
     // The scene has its own copy of what it needs.
@@ -111,6 +118,9 @@ fn execute(args: &Args, make: impl FnOnce(Algorithm) -> Box<dyn Integrator>) -> 
     let rendering = session::render_scene(&*integrator, &scene, &plan, &stop, |film, state| {
         progress.update(state);
         live.update(film, &progress);
+        if let Some(errors) = &mut errors {
+            errors.update(film, state.elapsed.as_secs_f64(), &progress);
+        }
     });
     progress.finish();
     let rendering = rendering?;
@@ -120,6 +130,9 @@ fn execute(args: &Args, make: impl FnOnce(Algorithm) -> Box<dyn Integrator>) -> 
     if !args.quiet {
         notes::after(&plan.algorithm, scene.features(), &rendering).iter().for_each(messages::note);
         messages::plain(&rendering);
+    }
+    if let Some(errors) = errors {
+        errors.finish(&rendering.film, rendering.elapsed.as_secs_f64())?;
     }
     output::save_all(&plan, &provenance, &rendering, args.quiet)?;
     Ok(if rendering.interrupted { Exit::Interrupted } else { Exit::Done })

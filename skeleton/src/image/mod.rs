@@ -1,9 +1,10 @@
-//! Pictures: in memory, in files (OpenEXR, PNG), and live in a viewer.
+//! Pictures: in memory, compared with others, in files (OpenEXR, PNG), and live in a viewer.
 
 use std::ops::{Index, IndexMut};
 
 use crate::math::Rgb;
 
+pub mod error;
 pub mod exr;
 mod png;
 mod save;

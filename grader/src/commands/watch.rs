@@ -1,0 +1,144 @@
+//! `grader grade --watch`: grades again on every save.
+
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::Duration;
+
+use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
+use comfy_table::{Cell, CellAlignment, Color, ContentArrangement, Table};
+use notify_debouncer_mini::new_debouncer;
+use notify_debouncer_mini::notify::{self, RecursiveMode};
+
+use crate::error::{Error, Result};
+use crate::grade::{Options, grade};
+use crate::report::{CheckResult, Report, Verdict};
+use crate::submission::Submission;
+use crate::workspace::Workspace;
+
+/// How long a file has to be left alone after a save.
+const QUIET: Duration = Duration::from_millis(150);
+
+/// Lines of a compiler's messages that are shown: the first error, usually.
+const MESSAGE_LINES: usize = 24;
+
+/// Grades a hand-in now and whenever it changes, until someone interrupts. What is wrong with the hand-in, or missing
+/// for a moment, is shown; it never ends this.
+///
+/// # Errors
+/// If the folder of the hand-in cannot be watched.
+pub(super) fn watch(workspace: &Workspace, path: &Path, options: &Options, file: &Path) -> Result<()> {
+    let (sender, changes) = channel();
+    let trouble =
+        |error: notify::Error| Error::Harness(format!("{}: cannot be watched: {error}", path.display()));
+    let mut debouncer = new_debouncer(QUIET, sender).map_err(trouble)?;
+    // The folder, not the file: many editors write another file and give it the name.
+    let (folder, mode) = if path.is_dir() {
+        (path.to_owned(), RecursiveMode::Recursive)
+    } else {
+        (folder_of(path), RecursiveMode::NonRecursive)
+    };
+    debouncer.watcher().watch(&folder, mode).map_err(trouble)?;
+
+    let mut last = None;
+    loop {
+        match Submission::read(path) {
+            Ok(submission) if last.as_ref() == Some(&submission.hash()) => {}
+            Ok(submission) => {
+                last = Some(submission.hash());
+                show(&grade_once(workspace, &submission, options, file), path);
+            }
+            Err(error) => {
+                last = None;
+                show(&format!("waiting: {error}"), path);
+            }
+        }
+        if !wait_for(&changes) {
+            return Err(Error::Harness("the system no longer says what changes".to_owned()));
+        }
+    }
+}
+
+/// Waits for a change and takes note of all that have come meanwhile; false if there will be no more.
+fn wait_for<T>(changes: &Receiver<T>) -> bool {
+    let more = changes.recv().is_ok();
+    while changes.try_recv().is_ok() {}
+    more
+}
+
+fn folder_of(path: &Path) -> PathBuf {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_owned()
+}
+
+/// Grades and says what came out of it. The table is drawn again after each check: the quickest come first.
+fn grade_once(workspace: &Workspace, submission: &Submission, options: &Options, file: &Path) -> String {
+    let mut checks: Vec<CheckResult> = Vec::new();
+    show("compiling …", &submission.path);
+    let graded = grade(workspace, submission, options, |check| {
+        checks.push(check.clone());
+        if std::io::stdout().is_terminal() {
+            show(&format!("{}\nchecking …", table_of(&checks)), &submission.path);
+        }
+    });
+    match graded.and_then(|report| report.save(file).map(|()| report)) {
+        Ok(report) => finished(&report),
+        Err(error) => format!("error: {error}"),
+    }
+}
+
+/// Draws the screen anew on a terminal; elsewhere one thing follows the other.
+fn show(text: &str, path: &Path) {
+    let mut out = std::io::stdout().lock();
+    let clear = if out.is_terminal() { "\x1b[2J\x1b[3J\x1b[H" } else { "" };
+    // Nobody may be reading any more.
+    let _ = writeln!(out, "{clear}{} (Ctrl-C ends)\n{text}", path.display());
+    let _ = out.flush();
+}
+
+/// What is shown at the end of a grade.
+fn finished(report: &Report) -> String {
+    if let Some(failure) = &report.submission.build_failure {
+        let lines: Vec<&str> = failure.messages.lines().collect();
+        let more = lines.len().saturating_sub(MESSAGE_LINES);
+        let mut text = format!("it does not compile:\n\n{}", lines[..lines.len() - more].join("\n"));
+        if more > 0 {
+            text += &format!("\n… and {more} more lines: save again when these are mended");
+        }
+        return text;
+    }
+    let points = &report.points;
+    format!(
+        "{}\n{} of {} automatic points, {:.1} s",
+        table_of(&report.checks),
+        points.earned,
+        points.automatic_max,
+        report.cost.total
+    )
+}
+
+/// One row a task: how many checks passed, and the first that did not.
+fn table_of(checks: &[CheckResult]) -> Table {
+    let mut table = Table::new();
+    table.load_style(UTF8_HORIZONTAL_ONLY).set_content_arrangement(ContentArrangement::Dynamic).set_header([
+        "task",
+        "passed",
+        "what is wrong first",
+    ]);
+    let mut tasks: Vec<&str> = checks.iter().map(|check| check.task.as_str()).collect();
+    tasks.dedup();
+    for task in tasks {
+        let of_task: Vec<&CheckResult> = checks.iter().filter(|check| check.task == task).collect();
+        let wrong: Vec<&&CheckResult> =
+            of_task.iter().filter(|check| check.verdict != Verdict::Pass).collect();
+        let color = if wrong.is_empty() { Color::Green } else { Color::Red };
+        let first =
+            wrong.first().map_or(String::new(), |check| format!("{}: {}", check.id, check.explanation));
+        let passed = format!("{} of {}", of_task.len() - wrong.len(), of_task.len());
+        table.add_row([
+            Cell::new(task),
+            Cell::new(passed).fg(color).set_alignment(CellAlignment::Right),
+            Cell::new(first),
+        ]);
+    }
+    table
+}

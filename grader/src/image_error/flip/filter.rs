@@ -1,0 +1,104 @@
+//! Convolutions of FLIP. All of its kernels are sums of products of a function of x and one of y, so each is two
+//! passes of one dimension; beyond its edges a picture goes on with its outermost pixels.
+
+use std::f64::consts::PI;
+
+/// One value a pixel.
+#[derive(Clone, Debug)]
+pub(super) struct Plane {
+    pub(super) width: usize,
+    pub(super) height: usize,
+    pub(super) values: Vec<f64>,
+}
+
+impl Plane {
+    /// Convolves each row with one kernel and then each column with another; both have odd lengths.
+    fn convolve(&self, horizontal: &[f64], vertical: &[f64]) -> Self {
+        let rows = self.pass(horizontal, |x, y, shift| (shifted(x, shift, self.width), y));
+        rows.pass(vertical, |x, y, shift| (x, shifted(y, shift, self.height)))
+    }
+
+    /// One pass; `place` says where the value lies that is a number of pixels away.
+    fn pass(&self, kernel: &[f64], place: impl Fn(usize, usize, isize) -> (usize, usize)) -> Self {
+        let radius = (kernel.len() / 2) as isize;
+        let value = |x: usize, y: usize| -> f64 {
+            let taps = kernel.iter().zip(-radius..=radius);
+            taps.map(|(weight, shift)| {
+                let (x, y) = place(x, y, shift);
+                weight * self.values[y * self.width + x]
+            })
+            .sum()
+        };
+        let values = (0..self.height).flat_map(|y| (0..self.width).map(move |x| (x, y)));
+        let values = values.map(|(x, y)| value(x, y)).collect();
+        Self { width: self.width, height: self.height, values }
+    }
+}
+
+fn shifted(position: usize, shift: isize, size: usize) -> usize {
+    position.saturating_add_signed(shift).min(size - 1)
+}
+
+/// What the eye makes of a channel of YCxCz: a sum of Gaussians a·√(π/b)·exp(−π²d²/b), d in degrees, normalised.
+#[derive(Clone, Copy)]
+pub(super) struct Sensitivity(&'static [(f64, f64)]);
+
+/// Table 1 of the paper: (a, b) for achromatic, red–green and blue–yellow contrast.
+pub(super) const SENSITIVITIES: [Sensitivity; 3] = [
+    Sensitivity(&[(1.0, 0.0047)]),
+    Sensitivity(&[(1.0, 0.0053)]),
+    Sensitivity(&[(34.1, 0.04), (13.5, 0.025)]),
+];
+
+/// The widest b, which sets the radius of all three.
+const WIDEST: f64 = 0.04;
+
+/// Filters a channel for an eye that sees a number of pixels within a degree.
+pub(super) fn see(plane: &Plane, Sensitivity(gaussians): Sensitivity, pixels_per_degree: f64) -> Plane {
+    let radius = (3.0 * (WIDEST / (2.0 * PI * PI)).sqrt() * pixels_per_degree).ceil() as i32;
+    let mut total = 0.0;
+    let mut sum = vec![0.0; plane.values.len()];
+    for &(a, b) in gaussians {
+        let along: Vec<f64> = (-radius..=radius)
+            .map(|i| (-PI * PI * (f64::from(i) / pixels_per_degree).powi(2) / b).exp())
+            .collect();
+        let scale = a * (PI / b).sqrt();
+        total += scale * along.iter().sum::<f64>().powi(2);
+        let seen = plane.convolve(&along, &along);
+        sum.iter_mut().zip(&seen.values).for_each(|(sum, value)| *sum += scale * value);
+    }
+    let values = sum.into_iter().map(|value| value / total).collect();
+    Plane { values, ..*plane }
+}
+
+/// What the eye catches on.
+#[derive(Clone, Copy)]
+pub(super) enum Feature {
+    /// Steps: the first derivative of a Gaussian.
+    Edge,
+    /// Dots and lines: its second derivative.
+    Point,
+}
+
+/// The strength of a feature in each pixel, over both directions. The detectors are 0.082° wide.
+pub(super) fn features(plane: &Plane, feature: Feature, pixels_per_degree: f64) -> Vec<f64> {
+    let deviation = 0.5 * 0.082 * pixels_per_degree;
+    let radius = (3.0 * deviation).ceil() as i32;
+    let positions = (-radius..=radius).map(f64::from);
+    let across: Vec<f64> =
+        positions.clone().map(|x| (-x * x / (2.0 * deviation * deviation)).exp()).collect();
+    let mut along: Vec<f64> = positions
+        .zip(&across)
+        .map(|(x, gauss)| match feature {
+            Feature::Edge => -x * gauss,
+            Feature::Point => (x * x / (deviation * deviation) - 1.0) * gauss,
+        })
+        .collect();
+    // Positive and negative weights of the whole kernel sum to 1 and −1. Their sign depends on one coordinate only.
+    let sum_across: f64 = across.iter().sum();
+    let sum_of = |sign: f64| along.iter().map(|weight| (sign * weight).max(0.0)).sum::<f64>() * sum_across;
+    let (positive, negative) = (sum_of(1.0), sum_of(-1.0));
+    along.iter_mut().for_each(|weight| *weight /= if *weight > 0.0 { positive } else { negative });
+    let (in_x, in_y) = (plane.convolve(&along, &across), plane.convolve(&across, &along));
+    in_x.values.iter().zip(&in_y.values).map(|(x, y)| x.hypot(*y)).collect()
+}

@@ -1,0 +1,96 @@
+//! Error against run time, of whole programs.
+//!
+//! Times differ from run to run, and with them the numbers of samples; what is asked for here holds with wide margins.
+
+use arty::integrator::Technique;
+use grader::build::{Framework, HandInProgram, compile};
+use grader::convergence::{Contestant, Convergence, Curve, Options, Role, brief, measure, save_csv, svg};
+use grader::workspace::Workspace;
+
+fn workspace() -> Workspace {
+    Workspace::find().expect("the tests run inside the checkout")
+}
+
+fn solution() -> String {
+    std::fs::read_to_string(workspace().solution_file()).expect("the solution is there")
+}
+
+fn program(source: &str) -> HandInProgram {
+    let framework = Framework::build(&workspace()).expect("the framework builds");
+    compile(&framework, source, &grader::sandbox::Limits::default())
+        .expect("the harness works")
+        .expect("it compiles")
+}
+
+fn measured(hand_in: &str) -> Convergence {
+    let (hand_in, solution) = (program(hand_in), program(&solution()));
+    let contestant = |name: &str, role, program| Contestant { name: name.to_owned(), role, program };
+    let contestants = [
+        contestant("hand-in", Role::Submission, &hand_in),
+        contestant("solution", Role::Solution, &solution),
+        contestant("BSDF sampling", Role::Baseline, &solution),
+    ];
+    let options = Options {
+        scenes: vec!["cornell_box_glossy".to_owned()],
+        techniques: vec![Technique::Mis],
+        seconds: 1.5,
+        target: None,
+        seed: 1,
+        threads: 1,
+        lengths: 5,
+    };
+    measure(&workspace(), &contestants, &options, |_| {}).expect("the harness works")
+}
+
+fn curve(convergence: &Convergence, role: Role) -> &Curve {
+    convergence.panels[0].curves.iter().find(|curve| curve.role == role).expect("there is such a curve")
+}
+
+#[test]
+fn a_biased_program_flattens_beside_the_solution() {
+    let biased = solution().replace("balance(p_brdf, p_ne)", "1.0");
+    let convergence = measured(&biased);
+    let (hand_in, right) = (curve(&convergence, Role::Submission), curve(&convergence, Role::Solution));
+    // The image is 1.66 times as bright as it should be. The bootstrap takes an unbiased curve for one that flattens
+    // about once in a thousand times (four standard deviations, a little too small).
+    assert!(hand_in.floor && !right.floor, "{convergence:#?}");
+    let slope = |curve: &Curve| curve.slope.expect("there are points").value;
+    assert!(slope(hand_in) > slope(right) + 0.2, "{} {}", slope(hand_in), slope(right));
+    assert!(hand_in.efficiency.expect("there is a solution").value < 0.5);
+    assert_eq!(right.efficiency.map(|estimate| estimate.value), Some(1.0));
+    assert!(hand_in.seconds_to_target.is_none() && right.seconds_to_target.is_some());
+    for point in &right.points {
+        let parts = point.bias_squared.value + point.variance.value;
+        assert!((parts - point.mse.value).abs() < 1e-9 * point.mse.value, "{point:?}");
+    }
+
+    assert!(svg(&convergence).expect("there are curves").contains(", bias "));
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("errors.csv");
+    save_csv(&convergence, &file).expect("it can be written");
+    let text = std::fs::read_to_string(&file).expect("it is there");
+    let points: usize = convergence.panels[0].curves.iter().map(|curve| curve.points.len()).sum();
+    assert_eq!(text.lines().count(), 1 + points);
+    assert!(text.lines().all(|line| line.split(',').count() == 8 + 3 * 5), "{text}");
+}
+
+#[test]
+fn a_program_that_panics_has_no_curve_and_stops_nobody_else() {
+    let panics = solution().replace("balance(p_brdf, p_ne)", "panic!(\"on purpose\")");
+    let convergence = measured(&panics);
+    assert!(convergence.panels[0].curves.iter().all(|curve| curve.role != Role::Submission));
+    assert!(!curve(&convergence, Role::Solution).points.is_empty());
+    let why = &convergence.left_out.first().expect("it is named").why;
+    assert!(why.contains("on purpose"), "{why}");
+}
+
+#[test]
+fn without_a_solution_the_comparison_is_left_out_with_the_reason() {
+    let convergence = brief(&workspace(), &program(&solution()), None, 1).expect("the harness works");
+    assert!(convergence.left_out[0].why.contains("no solution"), "{:?}", convergence.left_out);
+    for panel in &convergence.panels {
+        let roles: Vec<Role> = panel.curves.iter().map(|curve| curve.role).collect();
+        assert_eq!(roles, [Role::Submission, Role::Baseline]);
+        assert!(panel.curves.iter().all(|curve| curve.efficiency.is_none() && !curve.points.is_empty()));
+    }
+}
