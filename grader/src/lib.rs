@@ -16,6 +16,7 @@ pub mod plan;
 pub mod reference;
 pub mod report;
 pub mod rubric;
+pub mod stability;
 pub mod statistics;
 pub mod submission;
 pub mod workspace;

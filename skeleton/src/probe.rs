@@ -8,12 +8,17 @@
 //!
 //! **Switches** take away one of the two ways in which light is found. They belong to a scene.
 //!
-//! **Counts** are those of the current thread, since one path is followed on one thread.
+//! **Counts** and **recordings** are those of the current thread, since one path is followed on one thread.
+
+mod record;
 
 use std::cell::Cell;
 
 use crate::bsdf::BsdfSample;
 use crate::math::{Rgb, Vec3, direction};
+
+pub(crate) use record::record;
+pub use record::{Call, Recording, Value, start_recording, take_recording};
 
 /// A BSDF with the same value and density for all directions above the horizon.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -28,13 +28,19 @@ impl Sampler {
     /// The next number, uniform in [0, 1): a multiple of 2⁻²⁴, never 1.
     #[inline]
     pub fn next_1d(&mut self) -> f32 {
-        self.draw()
+        let number = self.draw();
+        #[cfg(feature = "probe")]
+        crate::probe::record(|| crate::probe::Call::new("Sampler::next_1d").got("number", number));
+        number
     }
 
     /// The next two numbers, each uniform in [0, 1), independent of each other.
     #[inline]
     pub fn next_2d(&mut self) -> (f32, f32) {
-        (self.draw(), self.draw())
+        let numbers = (self.draw(), self.draw());
+        #[cfg(feature = "probe")]
+        crate::probe::record(|| crate::probe::Call::new("Sampler::next_2d").got("numbers", numbers));
+        numbers
     }
 
     /// The numbers that the framework itself takes, inside `sample` and `sample_direct`.

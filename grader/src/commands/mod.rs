@@ -4,6 +4,7 @@ mod figures;
 mod grade;
 mod mutants;
 mod reference;
+mod stability;
 mod trusted;
 
 use std::process::ExitCode;
@@ -28,6 +29,8 @@ enum Command {
     Mutants(mutants::Arguments),
     /// Render the references of scenes with the solution (for staff).
     Reference(reference::Arguments),
+    /// Measure the limits of the framework in sweeps and extreme scenes (for staff).
+    Stability(stability::Arguments),
 }
 
 /// Runs the command line. The exit status is 0 if the command did its work, whatever the points; 1 for fewer points
@@ -38,6 +41,7 @@ pub fn run() -> ExitCode {
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Mutants(arguments) => mutants::run(&arguments),
         Command::Reference(arguments) => reference::run(&arguments),
+        Command::Stability(arguments) => stability::run(&arguments),
     };
     outcome.unwrap_or_else(|error| {
         eprintln!("error: {error}");

@@ -5,8 +5,9 @@ use glam::{DVec3, dvec3};
 use super::{Answer, Extremes, hollow_ball, inside_camera, series};
 use crate::model::{Material, Model};
 use crate::scene_file::{Camera, ModelUse, SceneFile};
-use crate::shapes::{Bottom, block, rectangle};
+use crate::shapes::rectangle;
 use crate::solids::icosphere;
+use crate::surface::Surface;
 
 /// Long enough for all but a millionth of the light between smooth surfaces.
 const MANY_BOUNCES: u32 = 400;
@@ -66,16 +67,25 @@ fn glass(extremes: &mut Extremes) {
             Answer::radiance(1.0, invisible),
         );
     }
-    let slab = block(dvec3(0.0, -0.05, 0.0), dvec3(1.0, 0.1, 1.0), 0.0, Bottom::Closed);
-    extremes.collection.models.push(
-        Model::new("glass_slab", "A pane of glass").with(Material::glass("glass", 1.5, [1.0; 3]), slab),
-    );
-    let grazing = Camera { eye: dvec3(-1.0, 0.051, 0.0), center: dvec3(0.0, 0.05, 0.0), fov: 0.01 };
+    // Light that enters the top at a grazing angle meets the right side head-on, and what that side reflects leaves by
+    // the left one: nothing is trapped, as it would be in a pane.
+    let profile = [(-1.0, 0.0), (1.0, 0.0), (0.0, -0.8944)];
+    let corner = |index: usize, z: f64| dvec3(profile[index].0, profile[index].1, z);
+    let positions = (0..3).flat_map(|index| [corner(index, 0.5), corner(index, -0.5)]).collect();
+    let triangles =
+        vec![[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3], [4, 0, 1], [4, 1, 5], [0, 4, 2], [1, 3, 5]];
+    let outside = Surface::new(positions, triangles).flipped();
+    let outside = if outside.cross(&outside.triangles[0]).y > 0.0 { outside } else { outside.flipped() };
+    extremes
+        .collection
+        .models
+        .push(Model::new("prism", "A prism").with(Material::glass("glass", 1.5, [1.0; 3]), outside));
+    let grazing = Camera { eye: dvec3(-1.0, 0.001, 0.0), center: DVec3::ZERO, fov: 0.001 };
     extremes.add(
         scene(
             "glass_grazing",
-            &["A pane of glass, seen at a thousandth of a right angle."],
-            &["surroundings", "glass_slab"],
+            &["A glass prism, seen at an angle of a thousandth with its top."],
+            &["surroundings", "prism"],
             grazing,
             MANY_BOUNCES,
         ),
