@@ -11,6 +11,7 @@ use crate::checks::{Bench, JudgedScene};
 use crate::error::{Error, Result};
 use crate::plan;
 use crate::reference;
+use crate::replay::quote;
 use crate::report::{
     CheckResult, Cost, LeftOut, Numerics, Points, Reason, Report, SCHEMA, Sandbox, SubmissionInfo,
     TaskResult, Verdict,
@@ -60,7 +61,7 @@ pub fn grade(
     let mut checks = Vec::new();
     let mut left_out = plan::left_out(&rubric, |name| scenes.get(name));
     if let Ok(program) = &built {
-        let bench = bench(program, &scenes, submission, options, rubric.checks().count());
+        let bench = bench(workspace, program, &scenes, submission, options, rubric.checks().count());
         for (task, spec) in &selected {
             let judged = scenes.get(&spec.scene);
             if let Some(why) = judged.and_then(|judged| plan::why_left_out(spec, judged)) {
@@ -168,6 +169,7 @@ fn load_scenes(workspace: &Workspace, selected: &Selected<'_>) -> Result<BTreeMa
 }
 
 fn bench<'a>(
+    workspace: &'a Workspace,
     program: &'a HandInProgram,
     scenes: &'a BTreeMap<String, JudgedScene>,
     submission: &Submission,
@@ -179,18 +181,13 @@ fn bench<'a>(
     Bench {
         program,
         scenes,
+        workspace,
         seed: *seed,
         screening_level: SCREENING_LEVEL / checks as f64,
         threads: options.threads,
         command: format!("cargo grade {path} --assignment={assignment} --seed={seed}"),
+        path,
     }
-}
-
-/// A path as an argument for a shell.
-fn quote(path: &Path) -> String {
-    let text = path.display().to_string();
-    let plain = |c: char| c.is_alphanumeric() || "/._-+@".contains(c);
-    if text.chars().all(plain) { text } else { format!("'{}'", text.replace('\'', r"'\''")) }
 }
 
 /// The points of one task.

@@ -14,6 +14,7 @@ pub mod host_process;
 pub mod mutants;
 pub mod plan;
 pub mod reference;
+pub mod replay;
 pub mod report;
 pub mod rubric;
 pub mod stability;

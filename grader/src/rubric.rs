@@ -98,6 +98,8 @@ pub enum CheckKind {
     WhiteFurnace,
     /// The weights of multiple importance sampling, one by one; `max_bounces` is the longest path that is looked at.
     MisWeights,
+    /// Scenes and densities at the ends of what numbers can be.
+    Stability,
 }
 
 impl CheckKind {
@@ -107,12 +109,13 @@ impl CheckKind {
             Self::MeanBias => "mean-bias",
             Self::WhiteFurnace => "white-furnace",
             Self::MisWeights => "mis-weights",
+            Self::Stability => "stability",
         }
     }
 
     /// True if it is looked at in a scene of the collection.
     pub fn needs_scene(self) -> bool {
-        self != Self::MisWeights
+        !matches!(self, Self::MisWeights | Self::Stability)
     }
 }
 
@@ -186,6 +189,9 @@ impl Rubric {
                         "task {id}, {}: mis-weights goes with the technique mis and 1 to 3 bounces only",
                         check.id()
                     ));
+                }
+                if check.check == CheckKind::Stability && check.technique == Technique::Bsdf {
+                    return Err(format!("task {id}, {}: stability goes with nee and mis only", check.id()));
                 }
                 if !(check.tolerance > 0.0 && check.tolerance < 1.0) {
                     return Err(format!("task {id}, {}: `tolerance` must be between 0 and 1", check.id()));

@@ -2,6 +2,7 @@
 
 mod mean_bias;
 mod mis_weights;
+mod stability;
 mod white_furnace;
 
 pub use mis_weights::Weights;
@@ -17,11 +18,13 @@ use crate::build::HandInProgram;
 use crate::error::Result;
 use crate::host_process::{Fault, HostProcess};
 use crate::reference::{Reference, SIZE};
+use crate::replay::Place;
 use crate::report::{CheckResult, Reason, Verdict};
 use crate::rubric::{CheckKind, CheckSpec, Hits, Task};
 use crate::statistics::bias::Expected;
 use crate::statistics::regions::{Kind, pyramid, weighted_image};
 use crate::statistics::sequential::{Decision, Demand, Judgement, Question, judge};
+use crate::workspace::Workspace;
 
 /// A scene with all that checks need to know of it.
 pub struct JudgedScene {
@@ -45,6 +48,10 @@ pub struct Bench<'a> {
     pub screening_level: f64,
     /// Threads for the hand-in.
     pub threads: usize,
+    /// The checkout.
+    pub workspace: &'a Workspace,
+    /// The hand-in's path, quoted for a shell.
+    pub path: String,
     /// The command that repeats this grade, to which `--only=…` is added.
     pub command: String,
 }
@@ -59,6 +66,7 @@ impl Bench<'_> {
             CheckKind::MeanBias => mean_bias::expected(spec, &self.scenes[&spec.scene].reference)?,
             CheckKind::WhiteFurnace => white_furnace::expected(spec, &self.scenes[&spec.scene])?,
             CheckKind::MisWeights => return self.probe_weights(task, spec),
+            CheckKind::Stability => return self.check_stability(task, spec),
         };
         self.compare_means(task, spec, &self.scenes[&spec.scene], &expected)
     }
@@ -112,6 +120,7 @@ impl Bench<'_> {
             non_finite: 0,
             negative: 0,
             weights: None,
+            remarks: Vec::new(),
             repeat: format!("{} --only={}", self.command, spec.id()),
         }
     }
@@ -165,12 +174,37 @@ impl Bench<'_> {
             result.verdict = Verdict::Fail;
             result.reason = Reason::Numerics;
             result.explanation = format!(
-                "{} samples are NaN or infinite and {} negative; the first: pixel ({}, {}), sample {}, value {:?}",
-                numerics.non_finite, numerics.negative, first.x, first.y, first.sample, first.value
+                "{} samples are NaN or infinite and {} negative; the first: pixel ({}, {}), sample {}, value {:?}; see it \
+                 again with `{}`",
+                numerics.non_finite,
+                numerics.negative,
+                first.x,
+                first.y,
+                first.sample,
+                first.value,
+                self.replay(spec, first)
             );
         }
         result.seconds = start.elapsed().as_secs_f64();
         Ok(result)
+    }
+
+    /// The command that follows a sample of a check's picture again.
+    fn replay(&self, spec: &CheckSpec, sample: &AnomalousSample) -> String {
+        let place = Place {
+            scene: spec.scene.clone(),
+            description: self.scenes[&spec.scene].description.clone(),
+            scale: 1.0,
+            emission: 1.0,
+            technique: spec.technique,
+            max_bounces: spec.max_bounces,
+            size: [SIZE.0, SIZE.1],
+            seed: 0,
+            pixel: [0, 0],
+            sample: 0,
+            switches: Switches { hits_off: spec.hits == Hits::Off, ..Switches::default() },
+        };
+        place.of(sample).command(&self.path)
     }
 
     /// The seed of a check: fixed by the grade's seed and the check's name, whatever else is run.

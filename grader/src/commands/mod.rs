@@ -4,6 +4,7 @@ mod figures;
 mod grade;
 mod mutants;
 mod reference;
+mod replay;
 mod stability;
 mod trusted;
 
@@ -29,6 +30,8 @@ enum Command {
     Mutants(mutants::Arguments),
     /// Render the references of scenes with the solution (for staff).
     Reference(reference::Arguments),
+    /// Follow one path again and show every call of the hand-in.
+    Replay(replay::Arguments),
     /// Measure the limits of the framework in sweeps and extreme scenes (for staff).
     Stability(stability::Arguments),
 }
@@ -41,6 +44,7 @@ pub fn run() -> ExitCode {
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Mutants(arguments) => mutants::run(&arguments),
         Command::Reference(arguments) => reference::run(&arguments),
+        Command::Replay(arguments) => replay::run(&arguments),
         Command::Stability(arguments) => stability::run(&arguments),
     };
     outcome.unwrap_or_else(|error| {

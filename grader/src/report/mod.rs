@@ -128,6 +128,9 @@ pub struct CheckResult {
     /// What was found about the weights, where they were looked at.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weights: Option<Weights>,
+    /// What is no mistake in the range that is judged, but might be beyond it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub remarks: Vec<String>,
     /// The command that repeats it.
     pub repeat: String,
 }

@@ -22,7 +22,7 @@ use crate::host_process::{Fault, HostProcess};
 use crate::report::{Reason, Verdict};
 use crate::rubric::CheckSpec;
 use exponents::{EXPONENTS, Side};
-use scenes::{Configuration, Plan, draw};
+pub(super) use scenes::{Configuration, Plan, draw};
 
 /// What was found about the weights.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
