@@ -54,6 +54,14 @@ fn size_and_distance(extremes: &mut Extremes) {
     );
     extremes.add(
         floor_scene(
+            "light_small",
+            &["A light with a side of a thousandth of its distance."],
+            square_light(1.0, 1e-3, 1e6),
+        ),
+        Answer::radiance(square(1.0, 1e-3, 1e6), overhead).without("bsdf", SELDOM_HIT).judged(),
+    );
+    extremes.add(
+        floor_scene(
             "light_huge",
             &["A light with a side of a thousand times its distance."],
             square_light(1.0, 1e3, 1.0),

@@ -102,16 +102,17 @@ fn within_f32(density: f64) -> f64 {
 
 fn judge(configuration: &Configuration, light: f64, bsdf: f64, paths: &[Vec<ProbedPath>]) -> Outcome {
     let [sampled, hit] = paths else { return Outcome::NoRadiance("an answer", f32::NAN) };
-    for (way, paths) in [("the light sample", sampled), ("the BSDF sample", hit)] {
+    // What has the density 0 is never drawn, so that nobody has to divide by it.
+    let drawn = [("the light sample", sampled, light), ("the BSDF sample", hit, bsdf)];
+    for (way, paths, _) in drawn.into_iter().filter(|(.., density)| *density > 0.0) {
         let bad =
             paths.iter().flat_map(|path| path.radiance).find(|value| !(value.is_finite() && *value >= 0.0));
         if let Some(value) = bad {
             return Outcome::NoRadiance(way, value);
         }
     }
-    let (Some(sampled), Some(hit)) = (mean_and_error(sampled), mean_and_error(hit)) else {
-        return Outcome::NoRadiance("a path", f32::NAN);
-    };
+    let mean = |paths: &[ProbedPath]| mean_and_error(paths).unwrap_or((0.0, 0.0));
+    let (sampled, hit) = (mean(sampled), mean(hit));
     let contribution =
         receiver_cos(configuration) * ((within_f32(light) + within_f32(bsdf)) / receiver_cos(configuration));
     // A way whose density is 0 is never taken, and one whose density is infinite brings nothing.
@@ -168,7 +169,7 @@ fn cause(pair: &Pair) -> &'static str {
     if greatest == 0.0 {
         "0/0, as in p / (p + q) with both 0"
     } else if least == 0.0 {
-        "a division by a density of 0"
+        "0/0 or 1/0, from a density of 0 of the other technique"
     } else if greatest.is_infinite() {
         "∞/∞, as in p / (p + q) with p infinite"
     } else if greatest > 1e19 {
