@@ -271,9 +271,11 @@ fn describe(result: &mut CheckResult, judgement: &Judgement, spec: &CheckSpec) {
     let comparison = judgement.comparison;
     let effect = comparison.relative();
     let margin = comparison.relative_margin(CONFIDENCE);
-    result.effect = Some(effect);
-    result.interval = Some([effect - margin, effect + margin]);
-    result.detectable = Some(judgement.detectable);
+    // Light where all should be black is infinitely wrong, which JSON has no number for.
+    result.effect = Some(effect).filter(|effect| effect.is_finite());
+    result.interval = Some([effect - margin, effect + margin])
+        .filter(|interval| interval.iter().all(|end| end.is_finite()));
+    result.detectable = Some(judgement.detectable).filter(|effect| effect.is_finite());
     result.samples = judgement.samples;
     (result.verdict, result.reason, result.explanation) = match judgement.decision {
         Decision::Biased => (
