@@ -24,6 +24,9 @@ const JUDGED: f64 = 1.000_001e12;
 /// Densities that are paired, all with all.
 const DENSITIES: [f64; 11] = [0.0, 1e-30, 1e-20, 1e-12, 1e-6, 1.0, 1e6, 1e12, 1e20, 1e30, f64::INFINITY];
 
+/// The greatest throughput of a path that is asked for.
+const MOST_THROUGHPUT: f64 = 1e37;
+
 /// A pair of densities with what came of it.
 struct Pair {
     light: f64,
@@ -49,6 +52,10 @@ pub(super) fn find(asked: &Asked<'_>, process: &mut HostProcess) -> Found {
     let mut pairs = Vec::new();
     for light in DENSITIES {
         for bsdf in DENSITIES {
+            // The path goes on with f · cos / p_B, which single precision has to hold, or nobody could be right.
+            if bsdf > 0.0 && within_f32(light) / bsdf > MOST_THROUGHPUT {
+                continue;
+            }
             let scenes = scripted(&configuration, light, bsdf);
             let job = ProbeJob { settings, scenes: scenes.to_vec(), samples: PATHS, seed: asked.seed };
             let paths = match process.probe(&job)? {
