@@ -25,9 +25,9 @@ fn point() -> impl Strategy<Value = Vec3> {
     [-1.0f32..1.0, -1.0f32..1.0, -1.0f32..1.0].prop_map(Vec3::from_array)
 }
 
-/// Triangles of sizes from a thousandth to one, some of them needles.
+/// Triangles of sizes from a thousandth to five, some of them needles.
 fn triangle() -> impl Strategy<Value = [Vec3; 3]> {
-    (point(), point(), point(), magnitude(-3.0..0.0), magnitude(-4.0..0.0))
+    (point(), point(), point(), magnitude(-3.0..0.7), magnitude(-4.0..0.0))
         .prop_map(|(corner, a, b, size, slim)| [corner, corner + size * a, corner + size * (a + slim * b)])
 }
 
@@ -108,7 +108,7 @@ fn samples(description: &SceneDescription, technique: Technique) -> Vec<Rgb> {
 
 proptest! {
     #![proptest_config(Config {
-        cases: 200,
+        cases: 1500,
         rng_seed: RngSeed::Fixed(5),
         rng_algorithm: RngAlgorithm::ChaCha,
         failure_persistence: None,

@@ -175,10 +175,10 @@ fn cause(pair: &Pair) -> &'static str {
     let (least, greatest) = (light.min(bsdf), light.max(bsdf));
     if greatest == 0.0 {
         "0/0, as in p / (p + q) with both 0"
-    } else if least == 0.0 {
-        "0/0 or 1/0, from a density of 0 of the other technique"
     } else if greatest.is_infinite() {
         "∞/∞, as in p / (p + q) with p infinite"
+    } else if least == 0.0 {
+        "0/0 or 1/0, from a density of 0 of the other technique"
     } else if greatest > 1e19 {
         "∞/∞ after the square or the sum of densities has overflowed"
     } else if least < 1e-19 {
