@@ -88,7 +88,7 @@ fn scaled(scene: &SceneDescription, scale: f32) -> SceneDescription {
     for light in &mut scaled.lights {
         if let LightDescription::Point { position, power } = light {
             *position *= scale;
-            *power = *power * (scale * scale);
+            *power *= scale * scale;
         }
     }
     scaled

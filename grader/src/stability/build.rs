@@ -101,17 +101,17 @@ pub fn changed(scene: &SceneDescription, scale: f64, offset: DVec3, emission: f3
         .iter_mut()
         .flat_map(|mesh| &mut mesh.positions)
         .for_each(|position| *position = at(*position));
-    changed.materials.iter_mut().for_each(|material| material.emission = material.emission * emission);
+    changed.materials.iter_mut().for_each(|material| material.emission *= emission);
     let power_factor = (scale * scale * f64::from(emission)) as f32;
     for light in &mut changed.lights {
         match light {
             LightDescription::Triangle { vertices, radiance } => {
                 *vertices = vertices.map(at);
-                *radiance = *radiance * emission;
+                *radiance *= emission;
             }
             LightDescription::Point { position, power } | LightDescription::Spot { position, power, .. } => {
                 *position = at(*position);
-                *power = *power * power_factor;
+                *power *= power_factor;
             }
         }
     }

@@ -106,7 +106,7 @@ fn with_needles(center: DVec3, right: DVec3, up: DVec3) -> Surface {
     sheet(columns, 1, |u, v| {
         let column = (u * columns as f64).round() as usize;
         let start = 2.0 / NEEDLES as f64 * (column / 2) as f64 - 1.0;
-        let across = if column % 2 == 0 { start } else { start + NEEDLE };
+        let across = if column.is_multiple_of(2) { start } else { start + NEEDLE };
         center + across * right + (2.0 * v - 1.0) * up
     })
 }

@@ -82,7 +82,8 @@ fn sweep(
     add(&mut base, &hollow_ball(2.0, SUBDIVISIONS), grey(0.5, 0.0));
     // The camera's eye stands for the middle of the ball.
     base.camera.eye = Vec3::ZERO;
-    let kinds: [(&str, fn(&Counts) -> u64); 4] = [
+    type Kind = (&'static str, fn(&Counts) -> u64);
+    let kinds: [Kind; 4] = [
         ("leaks", |counts| counts.leaks),
         ("acne", |counts| counts.acne),
         ("false shadows", |counts| counts.shadows),
