@@ -12,6 +12,7 @@ use crate::error::{Error, Result};
 use crate::host_process::HostProcess;
 use crate::plan;
 use crate::reference;
+use crate::replay::quote;
 use crate::report::{
     CheckResult, Cost, LeftOut, Numerics, Points, Reason, Report, SCHEMA, Sandbox, SubmissionInfo,
     TaskResult, Verdict,
@@ -60,6 +61,7 @@ pub struct Grader {
     framework: Framework,
     framework_time: f64,
     solution: Option<HandInProgram>,
+    workspace: Workspace,
     provenance: BTreeMap<String, String>,
 }
 
@@ -86,7 +88,16 @@ impl Grader {
             ("toolchain".to_owned(), framework.toolchain.clone()),
             ("threads".to_owned(), options.threads.to_string()),
         ]);
-        Ok(Self { options: options.clone(), rubric, scenes, framework, framework_time, solution, provenance })
+        Ok(Self {
+            options: options.clone(),
+            rubric,
+            scenes,
+            framework,
+            framework_time,
+            solution,
+            workspace: workspace.clone(),
+            provenance,
+        })
     }
 
     /// What the assignment asks for.
@@ -105,7 +116,8 @@ impl Grader {
     /// What is not the hand-in's doing.
     pub fn grade(&self, submission: &Submission, mut on_check: impl FnMut(&CheckResult)) -> Result<Report> {
         let start = Instant::now();
-        let Self { options, rubric, scenes, framework, framework_time, solution, provenance } = self;
+        let Self { options, rubric, scenes, framework, framework_time, solution, workspace, provenance } =
+            self;
         let selected = select(rubric, &options.only)?;
         let build_start = Instant::now();
         let built = compile(framework, &submission.source, &options.limits)?;
@@ -119,8 +131,19 @@ impl Grader {
         if let Ok(program) = &built {
             let host = HostProcess::start(program, options.threads)?.layers();
             sandbox = Sandbox::new(program.layers, host, sandbox.findings);
-            let checks_in_all = rubric.checks().count();
-            let bench = bench(program, solution.as_ref(), scenes, submission, options, checks_in_all);
+            let path = quote(&submission.path);
+            let Options { assignment, seed, threads, .. } = options;
+            let bench = Bench {
+                program,
+                solution: solution.as_ref(),
+                scenes,
+                workspace,
+                seed: *seed,
+                screening_level: SCREENING_LEVEL / rubric.checks().count() as f64,
+                threads: *threads,
+                command: format!("cargo grade {path} --assignment={assignment} --seed={seed}"),
+                path,
+            };
             for (task, spec) in &selected {
                 if let Some(why) = plan::why_left_out(spec, scenes.get(&spec.scene), solution.is_some()) {
                     left_out.push(LeftOut { check: spec.id(), scene: spec.scene.clone(), why });
@@ -245,34 +268,6 @@ fn solution(
         Ok(program) => Ok(Some(program)),
         Err(failure) => Err(Error::file(&path, format!("does not compile:\n{}", failure.messages))),
     }
-}
-
-fn bench<'a>(
-    program: &'a HandInProgram,
-    solution: Option<&'a HandInProgram>,
-    scenes: &'a BTreeMap<String, JudgedScene>,
-    submission: &Submission,
-    options: &Options,
-    checks: usize,
-) -> Bench<'a> {
-    let Options { assignment, seed, .. } = options;
-    let path = quote(&submission.path);
-    Bench {
-        program,
-        solution,
-        scenes,
-        seed: *seed,
-        screening_level: SCREENING_LEVEL / checks as f64,
-        threads: options.threads,
-        command: format!("cargo grade {path} --assignment={assignment} --seed={seed}"),
-    }
-}
-
-/// A path as an argument for a shell.
-fn quote(path: &Path) -> String {
-    let text = clean(&path.display().to_string());
-    let plain = |c: char| c.is_alphanumeric() || "/._-+@".contains(c);
-    if text.chars().all(plain) { text } else { format!("'{}'", text.replace('\'', r"'\''")) }
 }
 
 /// The points of one task.

@@ -8,7 +8,8 @@ use std::time::Duration;
 
 use arty::scene::SceneDescription;
 use host::protocol::{
-    ProbeJob, ProbedPath, RenderJob, Rendered, Request, Response, UNCONFINED, read_message, write_message,
+    ProbeJob, ProbedPath, RenderJob, Rendered, ReplayJob, Replayed, Request, Response, UNCONFINED,
+    read_message, write_message,
 };
 use serde::{Deserialize, Serialize};
 
@@ -133,6 +134,15 @@ impl HostProcess {
         }
     }
 
+    /// Follows one path again, with every call written down. Its numbers may be anything.
+    pub fn replay(&mut self, job: ReplayJob) -> Answer<Replayed> {
+        match self.ask(&Request::Replay(job))? {
+            Ok(Response::Replayed(path)) => Ok(Ok(path)),
+            Ok(other) => unexpected(other),
+            Err(fault) => Ok(Err(fault)),
+        }
+    }
+
     fn ask(&mut self, request: &Request<'_>) -> Answer<Response> {
         let mut bytes = Vec::new();
         write_message(&mut bytes, request)
@@ -217,6 +227,7 @@ fn unexpected<T>(response: Response) -> Answer<T> {
         Response::Rejected { message } => Err(Error::Harness(format!("the host rejected a job: {message}"))),
         Response::Started(_) => Ok(Err(Fault::Malformed("it started anew".to_owned()))),
         Response::SceneReady => Ok(Err(Fault::Malformed("it only said that a scene is ready".to_owned()))),
+        Response::Replayed(_) => Ok(Err(Fault::Malformed("a path that nobody asked for".to_owned()))),
         Response::Probed(_) => Ok(Err(Fault::Malformed("paths that nobody asked for".to_owned()))),
         Response::Rendered(_) => Ok(Err(Fault::Malformed("a rendering that nobody asked for".to_owned()))),
     }

@@ -59,6 +59,21 @@ impl Workspace {
         self.root.join("references/pictures").join(format!("{scene}.exr"))
     }
 
+    /// What each extreme scene must show.
+    pub fn extreme_answers(&self) -> PathBuf {
+        self.extreme_scene_file("answers")
+    }
+
+    /// The file of an extreme scene.
+    pub fn extreme_scene_file(&self, scene: &str) -> PathBuf {
+        self.root.join("scenes/extreme").join(format!("{scene}.yml"))
+    }
+
+    /// The folder with what was measured of the framework's limits.
+    pub fn stability(&self) -> PathBuf {
+        self.root.join("grader/stability")
+    }
+
     /// The folder of an assignment.
     pub fn assignment(&self, name: &str) -> PathBuf {
         self.root.join("assignments").join(name)

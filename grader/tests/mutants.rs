@@ -107,6 +107,7 @@ fn every_check_fails_on_what_it_is_for() {
         ("randomness/cornell_box/nee/8", "same-numbers-for-neighbours"),
         ("randomness/cornell_box/nee/8", "same-numbers-for-every-path"),
         ("ray-budget/scripted/nee/3", "all-lights-with-a-shadow-ray-each"),
+        ("stability/scripted/mis/3", "samples-clamped-at-ten"),
         ("white-furnace/furnace_diffuse/mis/3", "mis-hit-unweighted"),
         ("white-furnace/furnace_mirror/nee/4", "nee-mirrored-light-missing"),
     ] {

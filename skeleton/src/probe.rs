@@ -10,8 +10,9 @@
 //!
 //! **Strata** spread the integrator's own random numbers evenly over many paths.
 //!
-//! **Counts** are those of the current thread, since one path is followed on one thread.
+//! **Counts** and **recordings** are those of the current thread, since one path is followed on one thread.
 
+mod record;
 mod strata;
 
 use std::cell::Cell;
@@ -19,6 +20,8 @@ use std::cell::Cell;
 use crate::bsdf::BsdfSample;
 use crate::math::{Rgb, Vec3, direction};
 
+pub(crate) use record::record;
+pub use record::{Call, Recording, Value, start_recording, take_recording};
 pub(crate) use strata::place;
 pub use strata::{Strata, set_strata};
 

@@ -28,13 +28,19 @@ impl Sampler {
     /// The next number, uniform in [0, 1): a multiple of 2⁻²⁴, never 1.
     #[inline]
     pub fn next_1d(&mut self) -> f32 {
-        self.own()
+        let number = self.own();
+        #[cfg(feature = "probe")]
+        crate::probe::record(|| crate::probe::Call::new("Sampler::next_1d").got("number", number));
+        number
     }
 
     /// The next two numbers, each uniform in [0, 1), independent of each other.
     #[inline]
     pub fn next_2d(&mut self) -> (f32, f32) {
-        (self.own(), self.own())
+        let numbers = (self.own(), self.own());
+        #[cfg(feature = "probe")]
+        crate::probe::record(|| crate::probe::Call::new("Sampler::next_2d").got("numbers", numbers));
+        numbers
     }
 
     /// A number for an integrator.

@@ -10,6 +10,7 @@
 //! ```
 
 mod collection;
+mod extreme;
 mod model;
 mod number;
 mod output;
@@ -45,13 +46,16 @@ fn main() -> ExitCode {
     };
 
     let collection = scenes::all();
-    let faults = soundness::faults(&collection);
+    let extremes = extreme::all();
+    let mut faults = soundness::faults(&collection);
+    faults.extend(soundness::faults_of_names(&extremes.collection));
     if !faults.is_empty() {
         eprintln!("nothing written, because the scenes are not sound:\n{}", faults.join("\n"));
         return ExitCode::from(3);
     }
 
-    let files = collection.files();
+    let mut files = collection.files();
+    files.extend(extremes.files());
     if check_only {
         let differences = output::differences(&scenes_folder(), &files);
         for difference in &differences {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::number::{spaced, text};
+use crate::number::{precise, spaced, spaced_precisely, text};
 use crate::surface::Surface;
 
 /// A model: some parts, each of one material. Written as `<name>.obj` and `<name>.mtl`.
@@ -120,10 +120,10 @@ impl Material {
             lines += &format!("Ks {}\n", spaced(self.specular));
         }
         if self.model == Illumination::Glossy {
-            lines += &format!("Ns {}\n", text(self.exponent));
+            lines += &format!("Ns {}\n", precise(self.exponent));
         }
         if self.is_lamp() {
-            lines += &format!("Ke {}\n", spaced(self.emission));
+            lines += &format!("Ke {}\n", spaced_precisely(self.emission));
         }
         if let Illumination::Glass { index, transmittance } = self.model {
             lines += &format!("Ni {}\nTf {}\n", text(index), spaced(transmittance));

@@ -25,12 +25,26 @@ pub(crate) fn text(value: f64) -> String {
     if short == "-0" { "0".to_owned() } else { short.to_owned() }
 }
 
+/// A number of any magnitude: as [`text`] writes it if four decimals hold it, else in full.
+pub(crate) fn precise(value: f64) -> String {
+    match value.abs() {
+        magnitude if magnitude < 1e6 && (snap(value) - value).abs() <= 1e-12 * magnitude => text(value),
+        1e-4..1e6 => format!("{value}"),
+        _ => format!("{value:e}"),
+    }
+}
+
 /// Three numbers with spaces between, as OBJ wants them.
 pub(crate) fn spaced(values: [f64; 3]) -> String {
     values.map(text).join(" ")
 }
 
-/// Three numbers as a YAML list.
+/// Three numbers of any magnitude with spaces between.
+pub(crate) fn spaced_precisely(values: [f64; 3]) -> String {
+    values.map(precise).join(" ")
+}
+
+/// Three numbers of any magnitude as a YAML list.
 pub(crate) fn listed(values: [f64; 3]) -> String {
-    format!("[{}]", values.map(text).join(", "))
+    format!("[{}]", values.map(precise).join(", "))
 }

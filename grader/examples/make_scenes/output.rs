@@ -5,7 +5,7 @@ use std::path::Path;
 
 /// One file of the folder.
 pub(crate) struct OutputFile {
-    /// Its name, without a folder.
+    /// Its path below the folder of the scenes.
     pub(crate) name: String,
     /// Everything in it.
     pub(crate) content: Content,
@@ -21,13 +21,16 @@ pub(crate) enum Content {
 
 /// Writes all files, replacing what is there.
 pub(crate) fn write(folder: &Path, files: &[OutputFile]) -> std::io::Result<()> {
-    fs::create_dir_all(folder)?;
     for file in files.iter().filter(|file| difference(folder, file).is_some()) {
         let bytes = match &file.content {
             Content::Text(text) => text.as_bytes(),
             Content::Png(bytes) => bytes,
         };
-        fs::write(folder.join(&file.name), bytes)?;
+        let path = folder.join(&file.name);
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder)?;
+        }
+        fs::write(path, bytes)?;
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::number::{listed, text};
+use crate::number::{listed, precise, text};
 
 /// One scene, written as `<name>.yml`.
 pub(crate) struct SceneFile {
@@ -77,7 +77,7 @@ impl ModelUse {
 impl Step {
     fn yaml(&self) -> String {
         match *self {
-            Self::Scale(factor) => format!("!scale {}", text(factor)),
+            Self::Scale(factor) => format!("!scale {}", precise(factor)),
             Self::Rotate { axis, degrees } => {
                 format!("!rotate {{ axis: {}, degrees: {} }}", listed(axis.to_array()), text(degrees))
             }
@@ -128,7 +128,7 @@ impl SceneFile {
             "camera: !perspective_camera {{ eye: {}, center: {}, up: [0, 1, 0], fov: {} }}\n",
             listed(eye.to_array()),
             listed(center.to_array()),
-            text(fov)
+            precise(fov)
         );
         if !self.lights.is_empty() {
             file += "lights:\n";

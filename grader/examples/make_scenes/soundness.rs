@@ -9,6 +9,20 @@ use crate::surface::Surface;
 
 /// One line for each fault; none if all is well.
 pub(crate) fn faults(collection: &Collection) -> Vec<String> {
+    let mut faults = faults_of_names(collection);
+    for scene in &collection.scenes {
+        for light in &scene.lights {
+            faults.extend(light_fault(light).map(|fault| format!("{}: {fault}", scene.name)));
+        }
+    }
+    for model in &collection.models {
+        faults.extend(model_faults(model, collection));
+    }
+    faults
+}
+
+/// What must hold even of scenes whose triangles and lights are meant to be awkward.
+pub(crate) fn faults_of_names(collection: &Collection) -> Vec<String> {
     let mut faults = Vec::new();
     let mut names = BTreeSet::new();
     for file in collection.files() {
@@ -22,16 +36,12 @@ pub(crate) fn faults(collection: &Collection) -> Vec<String> {
                 faults.push(format!("{}: has no model {}", scene.name, model.model));
             }
         }
-        for light in &scene.lights {
-            faults.extend(light_fault(light).map(|fault| format!("{}: {fault}", scene.name)));
-        }
     }
     for model in &collection.models {
         let used = collection.scenes.iter().flat_map(|scene| &scene.models);
         if !used.into_iter().any(|used| used.model == model.name) {
             faults.push(format!("{}: no scene uses it", model.name));
         }
-        faults.extend(model_faults(model, collection));
     }
     faults
 }

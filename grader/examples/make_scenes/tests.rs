@@ -11,7 +11,7 @@ use crate::scene_file::{Light, SceneFile};
 use crate::scenes::{cornell, cornell_water, light_behind_wall, mesh, veach_mis};
 use crate::shapes::{Bottom, block};
 use crate::surface::Surface;
-use crate::{number, scenes, scenes_folder, solids, soundness};
+use crate::{extreme, number, scenes, scenes_folder, solids, soundness};
 
 fn scene<'a>(collection: &'a Collection, name: &str) -> (&'a SceneFile, Vec<PlacedTriangle>) {
     let scene = collection.scenes.iter().find(|scene| scene.name == name).expect("the scene exists");
@@ -52,7 +52,9 @@ fn signed_volume(surface: &Surface) -> f64 {
 
 #[test]
 fn the_committed_files_are_what_would_be_written() {
-    assert_eq!(differences(&scenes_folder(), &scenes::all().files()), Vec::<String>::new());
+    for files in [scenes::all().files(), extreme::all().files()] {
+        assert_eq!(differences(&scenes_folder(), &files), Vec::<String>::new());
+    }
 }
 
 #[test]
@@ -71,6 +73,36 @@ fn all_scenes_together_stay_small() {
 #[test]
 fn all_scenes_are_sound() {
     assert_eq!(soundness::faults(&scenes::all()), Vec::<String>::new());
+}
+
+#[test]
+fn extreme_scenes_have_an_answer_each_and_stay_small() {
+    let extremes = extreme::all();
+    assert_eq!(soundness::faults_of_names(&extremes.collection), Vec::<String>::new());
+    assert_eq!(extremes.collection.scenes.len(), extremes.answers.len());
+    for (scene, answer) in extremes.collection.scenes.iter().zip(&extremes.answers) {
+        assert!(answer.left_out.len() < 3, "{}: no technique is left", scene.name);
+        if let extreme::Truth::SameAs(other) = answer.truth {
+            assert!(extremes.collection.scenes.iter().any(|scene| scene.name == other), "{other}");
+        }
+    }
+    let size: usize = extremes
+        .files()
+        .iter()
+        .map(|file| match &file.content {
+            Content::Text(text) => text.len(),
+            Content::Png(bytes) => bytes.len(),
+        })
+        .sum();
+    assert!(size < 1_000_000, "{size} bytes");
+}
+
+#[test]
+fn numbers_of_any_magnitude_are_written_in_full() {
+    assert_eq!(number::precise(1e-20), "1e-20");
+    assert_eq!(number::precise(0.25), "0.25");
+    assert_eq!(number::precise(-1e20), "-1e20");
+    assert_eq!(number::precise(1.0 / 3.0).parse(), Ok(1.0 / 3.0));
 }
 
 #[test]

@@ -15,6 +15,8 @@ pub mod protocol;
 #[cfg(feature = "serve")]
 mod render;
 #[cfg(feature = "serve")]
+mod replay;
+#[cfg(feature = "serve")]
 mod serve;
 #[cfg(feature = "serve")]
 mod stdio;

@@ -24,6 +24,27 @@ pub enum Request<'a> {
     Render(Cow<'a, RenderJob>),
     /// Follow paths through small scripted scenes.
     Probe(Cow<'a, ProbeJob>),
+    /// Follow one path of a scene and write down every call.
+    Replay(ReplayJob),
+}
+
+/// One path of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ReplayJob {
+    /// Which scene, counted from 0 in the order in which they were sent.
+    pub scene: u32,
+    /// What the hand-in's path tracer is made with.
+    pub settings: Settings,
+    /// Width and height of the picture in pixels.
+    pub size: [u32; 2],
+    /// The seed of its batch.
+    pub seed: u64,
+    /// Column and row of the pixel.
+    pub pixel: [u32; 2],
+    /// The number of the sample.
+    pub sample: u64,
+    /// Ways of finding light that are closed.
+    pub switches: Switches,
 }
 
 /// Independent renderings of one scene.
@@ -122,6 +143,8 @@ pub enum Response {
     Rendered(Rendered),
     /// For each scripted scene what its paths found.
     Probed(Vec<Vec<ProbedPath>>),
+    /// What one path called.
+    Replayed(Replayed),
     /// The hand-in panicked.
     Panicked {
         /// What it said.
@@ -147,6 +170,28 @@ pub struct ProbedPath {
     pub light_samples: u32,
     /// Calls of `Bsdf::sample`.
     pub bsdf_samples: u32,
+}
+
+/// The path of a [`ReplayJob`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Replayed {
+    /// The radiance that it returned. It may be anything, NaN too.
+    pub radiance: [f32; 3],
+    /// Every call of the hand-in, in order.
+    pub calls: Vec<Call>,
+    /// Calls beyond those, which were not written down.
+    pub left_out: u64,
+}
+
+/// A call of the hand-in.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Call {
+    /// What was called, as in `Scene::intersect`.
+    pub function: String,
+    /// What it was given.
+    pub given: Vec<(String, Vec<f32>)>,
+    /// What it gave; nothing for `None`.
+    pub got: Vec<(String, Vec<f32>)>,
 }
 
 /// The batches of a [`RenderJob`].

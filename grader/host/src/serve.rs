@@ -11,7 +11,7 @@ use arty::scene::Scene;
 
 use crate::confine::{Layers, confine};
 use crate::protocol::{MAX_MESSAGE, Request, Response, Switches, UNCONFINED, read_message, write_message};
-use crate::{probe, render, stdio};
+use crate::{probe, render, replay, stdio};
 
 /// Makes the hand-in's path tracer.
 pub type Constructor = fn(Settings) -> Box<dyn Integrator>;
@@ -58,6 +58,13 @@ fn answer_all(
                 Some(scene) => {
                     scene.set_switches(switches(job.switches));
                     guarded(|| Response::Rendered(render::batches(constructor, scene, &job)))
+                }
+            },
+            Request::Replay(job) => match scenes.get_mut(job.scene as usize) {
+                None => Response::Rejected { message: format!("there is no scene {}", job.scene) },
+                Some(scene) => {
+                    scene.set_switches(switches(job.switches));
+                    guarded(|| Response::Replayed(replay::path(constructor, scene, &job)))
                 }
             },
             Request::Probe(job)

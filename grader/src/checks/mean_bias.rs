@@ -11,7 +11,7 @@ use crate::statistics::bias::Expected;
 pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult) -> Result<(), Stop> {
     let judged = bench.scene(spec);
     let expected = expected(spec, &judged.reference)?;
-    means::run(bench, &Picture::of(bench, spec, &[&judged.description], &expected), result)
+    means::run(bench, spec, &Picture::of(bench, spec, &[&judged.description], &expected), result)
 }
 
 /// What the reference says.

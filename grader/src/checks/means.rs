@@ -133,8 +133,13 @@ pub(super) struct Numerics {
 }
 
 impl Numerics {
-    /// Puts them into a check's result: a hand-in that gives any has failed it.
-    pub(super) fn enter(&self, result: &mut CheckResult) {
+    /// Puts them into a check's result: a hand-in that gives any has failed it. `again` gives the command that follows
+    /// such a sample again, where there is one.
+    pub(super) fn enter(
+        &self,
+        result: &mut CheckResult,
+        again: impl FnOnce(&AnomalousSample) -> Option<String>,
+    ) {
         result.non_finite += self.non_finite;
         result.negative += self.negative;
         if let Some(first) = self.first.first() {
@@ -144,18 +149,26 @@ impl Numerics {
                 "{} samples are NaN or infinite and {} negative; the first: pixel ({}, {}), sample {}, value {:?}",
                 self.non_finite, self.negative, first.x, first.y, first.sample, first.value
             );
+            if let Some(command) = again(first) {
+                result.explanation += &format!("; see it again with `{command}`");
+            }
         }
     }
 }
 
-/// Judges one picture and says in the result what came out.
-pub(super) fn run(bench: &Bench<'_>, picture: &Picture<'_>, result: &mut CheckResult) -> Result<(), Stop> {
+/// Judges one picture of a check's scene and says in the result what came out.
+pub(super) fn run(
+    bench: &Bench<'_>,
+    spec: &CheckSpec,
+    picture: &Picture<'_>,
+    result: &mut CheckResult,
+) -> Result<(), Stop> {
     let mut numerics = Numerics::default();
     let judgement = picture.judge(bench, &mut numerics);
     if let Ok(judgement) = &judgement {
         describe(result, judgement, picture.tolerance);
     }
-    numerics.enter(result);
+    numerics.enter(result, |sample| Some(bench.replay(spec, sample)));
     judgement.map(|_| ())
 }
 
@@ -167,9 +180,11 @@ pub(super) fn describe(result: &mut CheckResult, judgement: &Judgement, toleranc
     let comparison = judgement.comparison;
     let effect = comparison.relative();
     let margin = comparison.relative_margin(CONFIDENCE);
-    result.effect = Some(effect);
-    result.interval = Some([effect - margin, effect + margin]);
-    result.detectable = Some(judgement.detectable);
+    // Light where all should be black is infinitely wrong, which JSON has no number for.
+    result.effect = Some(effect).filter(|effect| effect.is_finite());
+    result.interval = Some([effect - margin, effect + margin])
+        .filter(|interval| interval.iter().all(|end| end.is_finite()));
+    result.detectable = Some(judgement.detectable).filter(|effect| effect.is_finite());
     result.samples += judgement.samples;
     result.z = judgement.z.clone();
     (result.verdict, result.reason, result.explanation) = match judgement.decision {

@@ -10,6 +10,7 @@ mod metamorphic;
 mod mis_weights;
 mod randomness;
 mod ray_budget;
+mod stability;
 #[cfg(test)]
 mod test_scenes;
 mod white_furnace;
@@ -24,13 +25,16 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use arty::scene::{Scene, SceneDescription};
+use host::protocol::{AnomalousSample, Switches};
 
 use crate::build::HandInProgram;
 use crate::error::Result;
 use crate::host_process::{Fault, HostProcess};
-use crate::reference::Reference;
+use crate::reference::{Reference, SIZE};
+use crate::replay::Place;
 use crate::report::{CheckResult, Reason, Verdict};
-use crate::rubric::{CheckKind, CheckSpec, Task};
+use crate::rubric::{CheckKind, CheckSpec, Hits, Task};
+use crate::workspace::Workspace;
 
 /// A scene with all that checks need to know of it.
 pub struct JudgedScene {
@@ -56,6 +60,10 @@ pub struct Bench<'a> {
     pub screening_level: f64,
     /// Threads for the hand-in.
     pub threads: usize,
+    /// The checkout.
+    pub workspace: &'a Workspace,
+    /// The hand-in's path, quoted for a shell.
+    pub path: String,
     /// The command that repeats this grade, to which `--only=…` is added.
     pub command: String,
 }
@@ -78,6 +86,7 @@ impl Bench<'_> {
             CheckKind::MisWeights => mis_weights::run,
             CheckKind::Randomness => randomness::run,
             CheckKind::RayBudget => ray_budget::run,
+            CheckKind::Stability => stability::run,
             CheckKind::WhiteFurnace => white_furnace::run,
         };
         match check(self, spec, &mut result) {
@@ -135,6 +144,24 @@ impl Bench<'_> {
             z: Vec::new(),
             repeat: format!("{} --only={}", self.command, spec.id()),
         }
+    }
+
+    /// The command that follows a sample of a check's picture again.
+    fn replay(&self, spec: &CheckSpec, sample: &AnomalousSample) -> String {
+        let place = Place {
+            scene: spec.scene.clone(),
+            description: self.scene(spec).description.clone(),
+            scale: 1.0,
+            emission: 1.0,
+            technique: spec.technique,
+            max_bounces: spec.max_bounces,
+            size: [SIZE.0, SIZE.1],
+            seed: 0,
+            pixel: [0, 0],
+            sample: 0,
+            switches: Switches { hits_off: spec.hits == Hits::Off, ..Switches::default() },
+        };
+        place.of(sample).command(&self.path)
     }
 
     /// The seed of a check: fixed by the grade's seed and the check's name, whatever else is run.

@@ -12,6 +12,8 @@ mod pack;
 mod plan;
 mod policy;
 mod reference;
+mod replay;
+mod stability;
 mod trusted;
 mod watch;
 
@@ -49,6 +51,10 @@ enum Command {
     Plan(plan::Arguments),
     /// Render the references of scenes with the solution (for staff).
     Reference(reference::Arguments),
+    /// Follow one path again and show every call of the hand-in.
+    Replay(replay::Arguments),
+    /// Measure the limits of the framework in sweeps and extreme scenes (for staff).
+    Stability(stability::Arguments),
 }
 
 /// Runs the command line. The exit status is 0 if the command did its work, whatever the points; 1 for fewer points
@@ -65,6 +71,8 @@ pub fn run() -> ExitCode {
         Command::Mutants(arguments) => mutants::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Reference(arguments) => reference::run(&arguments),
+        Command::Replay(arguments) => replay::run(&arguments),
+        Command::Stability(arguments) => stability::run(&arguments),
     };
     outcome.unwrap_or_else(|error| {
         eprintln!("error: {error}");

@@ -75,13 +75,15 @@ pub enum CheckKind {
     Randomness,
     /// How many rays a path takes; `max_bounces` is the longest path that is looked at.
     RayBudget,
+    /// Scenes and densities at the ends of what numbers can be.
+    Stability,
     /// Means against the closed form of a uniformly emitting enclosure.
     WhiteFurnace,
 }
 
 impl CheckKind {
     /// All of them, by name.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::ClosedForm,
         Self::Efficiency,
         Self::HiddenVariants,
@@ -91,6 +93,7 @@ impl CheckKind {
         Self::MisWeights,
         Self::Randomness,
         Self::RayBudget,
+        Self::Stability,
         Self::WhiteFurnace,
     ];
 
@@ -106,13 +109,17 @@ impl CheckKind {
             Self::MisWeights => "mis-weights",
             Self::Randomness => "randomness",
             Self::RayBudget => "ray-budget",
+            Self::Stability => "stability",
             Self::WhiteFurnace => "white-furnace",
         }
     }
 
     /// True if it is looked at in a scene of the collection.
     pub fn needs_scene(self) -> bool {
-        !matches!(self, Self::HiddenVariants | Self::LightPick | Self::MisWeights | Self::RayBudget)
+        !matches!(
+            self,
+            Self::HiddenVariants | Self::LightPick | Self::MisWeights | Self::RayBudget | Self::Stability
+        )
     }
 }
 
@@ -174,6 +181,9 @@ impl CheckSpec {
         if self.check == CheckKind::LightPick && (self.technique == Technique::Bsdf || self.max_bounces != 1)
         {
             return Err("light-pick goes with the techniques nee and mis and 1 bounce only".to_owned());
+        }
+        if self.check == CheckKind::Stability && self.technique == Technique::Bsdf {
+            return Err("stability goes with the techniques nee and mis only".to_owned());
         }
         if self.check == CheckKind::Efficiency && self.technique == Technique::Bsdf {
             return Err("efficiency goes with the techniques nee and mis only".to_owned());

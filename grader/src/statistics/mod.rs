@@ -6,6 +6,8 @@
 
 pub mod batches;
 pub mod bias;
+#[cfg(test)]
+mod extremes;
 pub mod independence;
 pub mod regions;
 pub mod regression;

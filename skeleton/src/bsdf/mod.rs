@@ -106,6 +106,14 @@ impl Bsdf {
     /// Black from the horizon down, and black for the delta lobes, in whatever direction.
     #[inline]
     pub fn eval(&self, wi: Vec3) -> Rgb {
+        let f = self.value(wi);
+        #[cfg(feature = "probe")]
+        crate::probe::record(|| crate::probe::Call::new("Bsdf::eval").given("wi", wi).got("f", f));
+        f
+    }
+
+    #[inline]
+    fn value(&self, wi: Vec3) -> Rgb {
         if !self.geometry.reflects(wi) {
             return Rgb::BLACK;
         }
@@ -129,6 +137,14 @@ impl Bsdf {
     /// drawn from it.
     #[inline]
     pub fn pdf(&self, wi: Vec3) -> f32 {
+        let pdf = self.density(wi);
+        #[cfg(feature = "probe")]
+        crate::probe::record(|| crate::probe::Call::new("Bsdf::pdf").given("wi", wi).got("pdf", pdf));
+        pdf
+    }
+
+    #[inline]
+    fn density(&self, wi: Vec3) -> f32 {
         if !self.geometry.reflects(wi) {
             return 0.0;
         }
@@ -152,10 +168,13 @@ impl Bsdf {
     pub fn sample(&self, sampler: &mut Sampler) -> Option<BsdfSample> {
         #[cfg(feature = "probe")]
         crate::probe::count(|counts| counts.bsdf_samples += 1);
-        match self.only_diffuse() {
+        let sample = match self.only_diffuse() {
             Some(_) => self.sample_towards(diffuse::sample(&self.geometry, sampler)),
             None => self.sample_lobes(sampler),
-        }
+        };
+        #[cfg(feature = "probe")]
+        crate::probe::record(|| record_sample(sample));
+        sample
     }
 
     #[inline(never)]
@@ -176,7 +195,7 @@ impl Bsdf {
     /// The sample for a direction that a lobe that is not a delta distribution has drawn.
     #[inline]
     fn sample_towards(&self, wi: Vec3) -> Option<BsdfSample> {
-        let (f, pdf) = (self.eval(wi), self.pdf(wi));
+        let (f, pdf) = (self.value(wi), self.density(wi));
         // A density of zero or infinity: below the horizon, or beyond what f32 can hold.
         if !(pdf > 0.0 && pdf.is_finite() && f.is_finite()) || f.is_black() {
             return None;
@@ -188,5 +207,16 @@ impl Bsdf {
     #[inline]
     pub fn is_delta(&self) -> bool {
         self.first.is_delta() && self.second.is_none_or(|second| second.is_delta())
+    }
+}
+
+#[cfg(feature = "probe")]
+fn record_sample(sample: Option<BsdfSample>) -> crate::probe::Call {
+    let call = crate::probe::Call::new("Bsdf::sample");
+    match sample {
+        None => call,
+        Some(BsdfSample { wi, f, pdf, cos, is_delta }) => {
+            call.got("wi", wi).got("f", f).got("pdf", pdf).got("cos", cos).got("is_delta", is_delta)
+        }
     }
 }

@@ -83,15 +83,14 @@ impl Light {
     /// see [`Scene::occluded`](crate::scene::Scene::occluded).
     #[inline]
     pub fn sample_direct(&self, from: Vec3, sampler: &mut Sampler) -> Option<DirectSample> {
-        #[cfg(feature = "probe")]
-        if let Some(scripted) = self.probe_sample(from) {
-            return scripted;
-        }
-        match &self.shape {
+        let sample = |sampler: &mut Sampler| match &self.shape {
             Shape::Point(light) => light.sample_direct(from),
             Shape::Spot(light) => light.sample_direct(from),
             Shape::Triangle(light) => light.sample_direct(from, sampler),
-        }
+        };
+        #[cfg(feature = "probe")]
+        let sample = |sampler: &mut Sampler| self.probe_sample(from, || sample(sampler));
+        sample(sampler)
     }
 
     /// What this light emits at `hit` towards the viewer, `hit.wo`.

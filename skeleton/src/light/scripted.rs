@@ -2,7 +2,7 @@
 
 use super::{DirectSample, Emission, Light, Shape};
 use crate::math::{Rgb, Vec3, direction};
-use crate::probe::{ScriptedLight, count};
+use crate::probe::{Call, ScriptedLight, count, record};
 use crate::scene::Hit;
 
 impl Light {
@@ -10,11 +10,32 @@ impl Light {
         self.script = script;
     }
 
-    /// Counts a light sample. If this light has a script, what it says: the inner `None` is for points that the light
-    /// does not face.
+    /// Counts and records a light sample: by this light's script if it has one, else the one that `draw` gives.
     #[inline]
-    pub(super) fn probe_sample(&self, from: Vec3) -> Option<Option<DirectSample>> {
+    pub(super) fn probe_sample(
+        &self,
+        from: Vec3,
+        draw: impl FnOnce() -> Option<DirectSample>,
+    ) -> Option<DirectSample> {
         count(|counts| counts.light_samples += 1);
+        let sample = self.scripted_sample(from).unwrap_or_else(draw);
+        record(|| {
+            let call = Call::new("Light::sample_direct").given("light", self.index).given("from", from);
+            match sample {
+                None => call,
+                Some(DirectSample { point, intensity, pdf_area, cos }) => call
+                    .got("point", point)
+                    .got("intensity", intensity)
+                    .got("pdf_area", pdf_area)
+                    .got("cos", cos),
+            }
+        });
+        sample
+    }
+
+    /// What this light's script says, if it has one: the inner `None` is for points that the light does not face.
+    #[inline]
+    fn scripted_sample(&self, from: Vec3) -> Option<Option<DirectSample>> {
         let (Some(script), Shape::Triangle(light)) = (self.script, &self.shape) else { return None };
         let cos = light.normal.dot(direction(script.point, from).0);
         Some((cos > 0.0).then(|| DirectSample {
@@ -34,6 +55,15 @@ impl Light {
         if hit.switches().hits_off {
             emission.radiance = Rgb::BLACK;
         }
+        record(|| {
+            let Emission { radiance, pdf_area, cos } = emission;
+            Call::new("Light::emission")
+                .given("light", self.index)
+                .given("point", hit.point)
+                .got("radiance", radiance)
+                .got("pdf_area", pdf_area)
+                .got("cos", cos)
+        });
         emission
     }
 }

@@ -19,7 +19,7 @@ pub struct Hit<'a> {
     /// The direction back to where the ray came from: a unit vector, away from the surface.
     pub wo: Vec3,
     pub(super) scene: &'a Scene,
-    triangle: &'a Triangle,
+    pub(super) triangle: &'a Triangle,
     barycentrics: [f32; 2],
     /// True if the ray came from the front.
     front: bool,
@@ -140,7 +140,10 @@ impl<'a> Hit<'a> {
     /// The absolute cosine between the shading normal and a direction.
     #[inline]
     pub fn cos(&self, wi: Vec3) -> f32 {
-        self.normal.dot(wi).abs()
+        let cos = self.normal.dot(wi).abs();
+        #[cfg(feature = "probe")]
+        crate::probe::record(|| crate::probe::Call::new("Hit::cos").given("wi", wi).got("cos", cos));
+        cos
     }
 
     /// The ray that leaves this point into the unit direction `wi`, to either side of the surface. It does not hit

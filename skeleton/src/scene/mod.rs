@@ -78,8 +78,11 @@ impl Scene {
     pub fn intersect(&self, ray: &Ray) -> Option<Hit<'_>> {
         #[cfg(feature = "probe")]
         crate::probe::count(|counts| counts.rays += 1);
-        let hit = self.accel.intersect(ray.origin, ray.direction, f32::INFINITY)?;
-        Some(Hit::new(self, ray, hit))
+        let hit = self.accel.intersect(ray.origin, ray.direction, f32::INFINITY);
+        let hit = hit.map(|hit| Hit::new(self, ray, hit));
+        #[cfg(feature = "probe")]
+        scripted::record_intersect(ray, hit.as_ref());
+        hit
     }
 
     /// True if something stands strictly between a hit and a point (world space), such as one on a light.
@@ -88,11 +91,10 @@ impl Scene {
     /// offsets are needed. Everything else does, glass too.
     #[inline]
     pub fn occluded(&self, hit: &Hit<'_>, point: Vec3) -> bool {
+        let occluded = || self.accel.occluded(hit.leave_towards(point - hit.point), point);
         #[cfg(feature = "probe")]
-        if self.probe_shadow_ray() {
-            return true;
-        }
-        self.accel.occluded(hit.leave_towards(point - hit.point), point)
+        let occluded = || self.probe_shadow_ray(hit, point, occluded);
+        occluded()
     }
 
     /// All lights; [`Light::index`] is the place in this slice.

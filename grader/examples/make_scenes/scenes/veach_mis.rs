@@ -5,6 +5,7 @@ use glam::{DVec3, dvec3};
 
 use crate::collection::Collection;
 use crate::model::{Material, Model};
+use crate::number::snap;
 use crate::scene_file::{Camera, ModelUse, SceneFile};
 use crate::shapes::{floor, panel, tessellated_rectangle};
 use crate::solids::icosphere;
@@ -53,7 +54,7 @@ pub(super) fn add_to(collection: &mut Collection) {
         let sphere = icosphere(ROW + dvec3(x, 0.0, 0.0), radius, 1);
         // Φ = π·A·L, with A as tessellated.
         let radiance = POWER / (std::f64::consts::PI * sphere.area());
-        model = model.with(Material::lamp(name, tint.map(|channel| channel * radiance)), sphere);
+        model = model.with(Material::lamp(name, tint.map(|channel| snap(channel * radiance))), sphere);
     }
     // As many triangles as one of the spheres has: then a light picked at random is as often one of these.
     let fill = tessellated_rectangle(dvec3(0.0, 9.0, 9.0), DVec3::X * 2.5, dvec3(0.0, -0.6, 1.2), 10, 4);

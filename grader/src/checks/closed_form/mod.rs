@@ -26,7 +26,7 @@ pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult)
     let mut expected = mean_bias::expected(spec, &judged.reference)?;
     expected.mean = pixels.mean;
     expected.error = pixels.error;
-    means::run(bench, &Picture::of(bench, spec, &[&judged.description], &expected), result)
+    means::run(bench, spec, &Picture::of(bench, spec, &[&judged.description], &expected), result)
 }
 
 /// Why a scene has no closed form with that many bounces; `None` if it has one.

@@ -54,7 +54,7 @@ pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult)
         }
         samples += judgement.samples;
         means::describe(result, &judgement, spec.tolerance);
-        numerics.enter(result);
+        numerics.enter(result, |_| None);
         if result.verdict != Verdict::Pass {
             result.explanation = format!("in scene {} of {SCENES}, {}", number + 1, result.explanation);
             break;

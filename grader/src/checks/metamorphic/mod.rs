@@ -56,7 +56,7 @@ pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult)
     } else {
         format!("with {}, {}", change.name, result.explanation)
     };
-    numerics.enter(result);
+    numerics.enter(result, |_| None);
     Ok(())
 }
 

@@ -22,7 +22,8 @@ use crate::host_process::HostProcess;
 use crate::report::{CheckResult, Reason, Verdict};
 use crate::rubric::CheckSpec;
 use exponents::{EXPONENTS, Side};
-use scenes::{Configuration, MANY_LIGHTS, Plan, draw};
+use scenes::MANY_LIGHTS;
+pub(super) use scenes::{Configuration, Plan, draw};
 
 /// What was found about the weights.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

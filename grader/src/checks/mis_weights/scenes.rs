@@ -18,38 +18,38 @@ use host::protocol::{ScriptedBsdf, ScriptedLight, ScriptedScene};
 
 /// What a configuration is drawn from.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Plan {
+pub(in crate::checks) struct Plan {
     /// Vertices of the path before the light.
-    pub(super) vertices: usize,
+    pub(in crate::checks) vertices: usize,
     /// ln of the range of densities per solid angle, on either side of 1.
-    pub(super) densities: f32,
+    pub(in crate::checks) densities: f32,
     /// ln of the range of distances, on either side of 1.
-    pub(super) distances: f32,
+    pub(in crate::checks) distances: f32,
     /// The least cosine.
-    pub(super) least_cos: f32,
+    pub(in crate::checks) least_cos: f32,
 }
 
 /// Two scenes that differ in which way to the light is open.
 #[derive(Clone, Debug)]
-pub(super) struct Configuration {
+pub(in crate::checks) struct Configuration {
     /// Only light samples arrive.
-    pub(super) light_side: ScriptedScene,
+    pub(in crate::checks) light_side: ScriptedScene,
     /// Only the BSDF sample of the last vertex arrives.
-    pub(super) bsdf_side: ScriptedScene,
+    pub(in crate::checks) bsdf_side: ScriptedScene,
     /// Density of the light sample per solid angle, with the probability of picking the light.
-    pub(super) p_light: f64,
+    pub(in crate::checks) p_light: f64,
     /// Density of the BSDF sample per solid angle.
-    pub(super) p_bsdf: f64,
+    pub(in crate::checks) p_bsdf: f64,
     /// The distance from the last vertex to the light.
-    pub(super) distance: f64,
+    pub(in crate::checks) distance: f64,
     /// The cosine at the light.
-    pub(super) cos_light: f64,
+    pub(in crate::checks) cos_light: f64,
     /// How many lights there are.
-    pub(super) lights: usize,
+    pub(in crate::checks) lights: usize,
     /// 1 / density of the light sample per area.
-    pub(super) area: f64,
+    pub(in crate::checks) area: f64,
     /// What the path would find at weight 1 with a density of 1: throughput · f · L · cos.
-    pub(super) contribution: f64,
+    pub(in crate::checks) contribution: f64,
 }
 
 /// How far, relative to the distance, light points are from the middle of their light.
@@ -59,7 +59,7 @@ const HALF: f32 = 0.05;
 pub(super) const MANY_LIGHTS: usize = 5;
 
 /// Draws a configuration; again until rays confirm that it is as it should be.
-pub(super) fn draw(plan: Plan, random: &mut Sampler) -> Configuration {
+pub(in crate::checks) fn draw(plan: Plan, random: &mut Sampler) -> Configuration {
     loop {
         let configuration = attempt(plan, random);
         let open = |scripted: &ScriptedScene| open_ways(scripted, plan.vertices);

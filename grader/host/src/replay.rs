@@ -1,0 +1,32 @@
+//! Following one path, with every call written down.
+
+use arty::probe::{self, start_recording, take_recording};
+use arty::render::sample_pixel;
+use arty::scene::Scene;
+
+use crate::protocol::{Call, ReplayJob, Replayed};
+use crate::serve::Constructor;
+
+/// Computes one sample again.
+pub(crate) fn path(constructor: Constructor, scene: &Scene, job: &ReplayJob) -> Replayed {
+    let integrator = constructor(job.settings);
+    let [width, height] = job.size;
+    let [x, y] = job.pixel;
+    let camera = scene.camera(width, height);
+    start_recording();
+    let radiance = sample_pixel(&*integrator, scene, &camera, job.seed, (x, y), job.sample);
+    let recording = take_recording();
+    let values = |values: Vec<probe::Value>| {
+        values.into_iter().map(|value| (value.name.to_owned(), value.numbers)).collect()
+    };
+    let call = |call: probe::Call| Call {
+        function: call.function.to_owned(),
+        given: values(call.given),
+        got: values(call.got),
+    };
+    Replayed {
+        radiance: radiance.to_array(),
+        calls: recording.calls.into_iter().map(call).collect(),
+        left_out: recording.left_out,
+    }
+}

@@ -1,0 +1,135 @@
+//! What a path carries at each of its vertices, worked out from the calls of the solution.
+
+use arty::integrator::Technique;
+use serde::Serialize;
+
+use super::{Path, Place, Step};
+
+/// One vertex of a path.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Vertex {
+    /// Bounces before it.
+    pub bounce: u32,
+    /// The product of f · cos / p over these bounces, without roulette (green).
+    pub throughput: f64,
+    /// The emission that was hit here and its weight (green).
+    pub hit: Option<Light>,
+    /// The light sample that was taken here and its weight (green).
+    pub light_sample: Option<Light>,
+}
+
+/// Light found in one of the two ways.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Light {
+    /// Density per solid angle of the technique that found it; none where no other could have.
+    pub density: Option<f64>,
+    /// That of the other technique.
+    pub other_density: Option<f64>,
+    /// The weight by which it counts.
+    pub weight: f64,
+    /// What it adds to the picture, without roulette.
+    pub contribution: f64,
+}
+
+/// Reads the vertices off the calls of the solution, of which it is known in which order they come. Densities and
+/// weights are worked out in double precision from what the framework gave.
+pub fn vertices(path: &Path, place: &Place) -> Vec<Vertex> {
+    let lights = light_count(place);
+    let mut vertices: Vec<Vertex> = Vec::new();
+    let mut throughput = 1.0;
+    // Where the last bounce was and the density of its direction; none at the camera and after a delta bounce.
+    let mut last: Option<([f64; 3], f64)> = None;
+    let mut here = [0.0; 3];
+    let mut steps = path.calls.iter().peekable();
+    while let Some(step) = steps.next() {
+        match step.function.as_str() {
+            "Scene::intersect" => {
+                let Some(point) = step.got("point") else { break };
+                here = triple(point);
+                let bounce = vertices.len() as u32;
+                vertices.push(Vertex { bounce, throughput, hit: None, light_sample: None });
+            }
+            "Light::emission" => {
+                let light = found_by_hit(step, place.technique, last, here, lights, throughput);
+                if let Some(vertex) = vertices.last_mut() {
+                    vertex.hit = light;
+                }
+            }
+            "Light::sample_direct" => {
+                let rest: Vec<&Step> = steps
+                    .clone()
+                    .take_while(|step| !matches!(step.function.as_str(), "Bsdf::sample" | "Scene::intersect"))
+                    .collect();
+                if let Some(vertex) = vertices.last_mut() {
+                    vertex.light_sample = found_by_sample(step, &rest, here, lights, throughput);
+                }
+            }
+            "Bsdf::sample" => {
+                let (Some(f), Some(cos), Some(pdf)) = (step.got("f"), step.number("cos"), step.number("pdf"))
+                else {
+                    break;
+                };
+                throughput *= f64::from(f.get(1).copied().unwrap_or(0.0)) * cos / pdf;
+                let is_delta = step.number("is_delta") == Some(1.0);
+                last = (!is_delta).then_some((here, pdf));
+            }
+            _ => {}
+        }
+    }
+    vertices
+}
+
+fn light_count(place: &Place) -> f64 {
+    arty::scene::Scene::new(&place.description).lights().len() as f64
+}
+
+fn triple(values: &[f32]) -> [f64; 3] {
+    std::array::from_fn(|i| values.get(i).map_or(f64::NAN, |&value| f64::from(value)))
+}
+
+fn squared_distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|i| (a[i] - b[i]).powi(2)).sum()
+}
+
+fn found_by_hit(
+    step: &Step,
+    technique: Technique,
+    last: Option<([f64; 3], f64)>,
+    here: [f64; 3],
+    lights: f64,
+    throughput: f64,
+) -> Option<Light> {
+    let radiance = f64::from(*step.got("radiance")?.get(1)?);
+    let (density, other_density, weight) = match (technique, last) {
+        (Technique::Bsdf, Some((_, density))) => (Some(density), None, 1.0),
+        (_, None) => (None, None, 1.0),
+        (Technique::Nee, Some((_, density))) => (Some(density), None, 0.0),
+        (Technique::Mis, Some((from, density))) => {
+            let other =
+                step.number("pdf_area")? * squared_distance(from, here) / step.number("cos")? / lights;
+            (Some(density), Some(other), density / (density + other))
+        }
+    };
+    Some(Light { density, other_density, weight, contribution: throughput * radiance * weight })
+}
+
+/// `rest` are the calls after the light sample that belong to it.
+fn found_by_sample(
+    step: &Step,
+    rest: &[&Step],
+    here: [f64; 3],
+    lights: f64,
+    throughput: f64,
+) -> Option<Light> {
+    let find = |function: &str| rest.iter().find(|step| step.function == function);
+    let f = f64::from(*find("Bsdf::eval")?.got("f")?.get(1)?);
+    let distance = squared_distance(here, triple(step.got("point")?));
+    let density = step.number("pdf_area")? * distance / step.number("cos")? / lights;
+    let other_density = find("Bsdf::pdf").and_then(|step| step.number("pdf"));
+    let weight = other_density.map_or(1.0, |other| density / (density + other));
+    let visible = find("Scene::occluded").and_then(|step| step.number("occluded")) == Some(0.0);
+    let cos = find("Hit::cos").and_then(|step| step.number("cos")).unwrap_or(0.0);
+    let intensity = f64::from(*step.got("intensity")?.get(1)?);
+    let contribution = if visible { throughput * f * intensity * cos * weight / density } else { 0.0 };
+    Some(Light { density: Some(density), other_density, weight, contribution })
+}

@@ -1,0 +1,156 @@
+//! Scenes made in memory, for sweeps and for the check.
+
+use arty::math::{Rgb, Vec3};
+use arty::scene::{
+    CameraDescription, Defaults, LightDescription, Material, Mesh, MeshTriangle, SceneDescription, Specular,
+};
+use glam::DVec3;
+
+/// A scene without anything, seen from above the origin along a slant.
+pub fn empty() -> SceneDescription {
+    SceneDescription {
+        camera: camera(DVec3::new(0.3, 0.4, 0.5), DVec3::ZERO, 0.01),
+        meshes: Vec::new(),
+        materials: Vec::new(),
+        textures: Vec::new(),
+        lights: Vec::new(),
+        defaults: Defaults::default(),
+    }
+}
+
+/// A camera that has y upwards.
+pub fn camera(eye: DVec3, center: DVec3, fov: f32) -> CameraDescription {
+    CameraDescription { eye: eye.as_vec3(), center: center.as_vec3(), up: Vec3::Y, fov }
+}
+
+/// A grey diffuse material that may emit.
+pub fn grey(reflectance: f32, radiance: f32) -> Material {
+    Material {
+        name: "grey".to_owned(),
+        diffuse: Rgb::gray(reflectance),
+        diffuse_map: None,
+        specular: Specular::None,
+        emission: Rgb::gray(radiance),
+    }
+}
+
+/// Adds triangles of one material, given by their corners.
+pub fn add(scene: &mut SceneDescription, corners: &[[DVec3; 3]], material: Material) {
+    let index = scene.materials.len() as u32;
+    scene.materials.push(material);
+    let triangles = (0..corners.len() as u32).map(|triangle| MeshTriangle {
+        positions: [3 * triangle, 3 * triangle + 1, 3 * triangle + 2],
+        normals: None,
+        uvs: None,
+        material: index,
+    });
+    scene.meshes.push(Mesh {
+        positions: corners.as_flattened().iter().map(|corner| corner.as_vec3()).collect(),
+        triangles: triangles.collect(),
+        ..Mesh::default()
+    });
+}
+
+/// A rectangle from a corner and two sides; its front is that of `right × up`.
+pub fn rectangle(corner: DVec3, right: DVec3, up: DVec3) -> Vec<[DVec3; 3]> {
+    vec![[corner, corner + right, corner + right + up], [corner, corner + right + up, corner + up]]
+}
+
+/// A rectangle at the height y around the axis that looks up, with sides of this length.
+pub fn floor(y: f64, side: f64) -> Vec<[DVec3; 3]> {
+    rectangle(DVec3::new(-0.5 * side, y, 0.5 * side), side * DVec3::X, -side * DVec3::Z)
+}
+
+/// The same with its front below.
+pub fn ceiling(y: f64, side: f64) -> Vec<[DVec3; 3]> {
+    rectangle(DVec3::new(-0.5 * side, y, -0.5 * side), side * DVec3::X, side * DVec3::Z)
+}
+
+/// A ball of 8·4ⁿ triangles around the origin with its front inside.
+pub fn hollow_ball(radius: f64, n: u32) -> Vec<[DVec3; 3]> {
+    let mut triangles = Vec::new();
+    for x in [1.0, -1.0] {
+        for y in [1.0, -1.0] {
+            for z in [1.0, -1.0] {
+                let (a, b, c) = (x * DVec3::X, y * DVec3::Y, z * DVec3::Z);
+                triangles.push(if x * y * z > 0.0 { [a, c, b] } else { [a, b, c] });
+            }
+        }
+    }
+    for _ in 0..n {
+        let split = |[a, b, c]: [DVec3; 3]| {
+            let [ab, bc, ca] = [(a, b), (b, c), (c, a)].map(|(from, to)| (from + to).normalize());
+            [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+        };
+        triangles = triangles.into_iter().flat_map(split).collect();
+    }
+    triangles.into_iter().map(|triangle| triangle.map(|corner| radius * corner)).collect()
+}
+
+/// The same scene `scale` times as large about the origin, then moved, with all radiances times `emission`.
+///
+/// What is seen is the same picture times `emission`: radiance does not depend on size, and the power of lights without
+/// an area grows with the area that they light.
+pub fn changed(scene: &SceneDescription, scale: f64, offset: DVec3, emission: f32) -> SceneDescription {
+    let at = |point: Vec3| (scale * point.as_dvec3() + offset).as_vec3();
+    let mut changed = scene.clone();
+    changed.camera.eye = at(scene.camera.eye);
+    changed.camera.center = at(scene.camera.center);
+    changed
+        .meshes
+        .iter_mut()
+        .flat_map(|mesh| &mut mesh.positions)
+        .for_each(|position| *position = at(*position));
+    changed.materials.iter_mut().for_each(|material| material.emission *= emission);
+    let power_factor = (scale * scale * f64::from(emission)) as f32;
+    for light in &mut changed.lights {
+        match light {
+            LightDescription::Triangle { vertices, radiance } => {
+                *vertices = vertices.map(at);
+                *radiance *= emission;
+            }
+            LightDescription::Point { position, power } | LightDescription::Spot { position, power, .. } => {
+                *position = at(*position);
+                *power *= power_factor;
+            }
+        }
+    }
+    changed
+}
+
+/// A room of about four units: diffuse and glossy surfaces, a block near a wall, something hung closely under a light,
+/// a light with an area and one without.
+pub fn room() -> SceneDescription {
+    let mut scene = empty();
+    scene.camera = camera(DVec3::new(0.3, 1.2, 3.2), DVec3::new(0.0, 0.6, 0.0), 45.0);
+    let wall = rectangle(DVec3::new(-1.5, 0.0, -1.5), 3.0 * DVec3::X, 2.0 * DVec3::Y);
+    add(&mut scene, &floor(0.0, 3.0), grey(0.6, 0.0));
+    add(&mut scene, &wall, grey(0.5, 0.0));
+    let lobe = Specular::Phong { reflectance: Rgb::gray(0.4), exponent: 20.0 };
+    let plate = rectangle(DVec3::new(0.2, 0.05, 0.9), 0.8 * DVec3::X, DVec3::new(0.0, 0.4, -0.6));
+    add(&mut scene, &plate, Material { specular: lobe, ..grey(0.3, 0.0) });
+    // A shelf near the wall and a sheet a little above the floor: what is under them is in their shadow.
+    let shelf = rectangle(DVec3::new(-1.2, 0.8, -1.48), 0.8 * DVec3::X, 0.3 * DVec3::Z);
+    add(&mut scene, &shelf, grey(0.4, 0.0));
+    add(&mut scene, &rectangle(DVec3::new(-1.0, 0.03, 1.0), 0.9 * DVec3::X, -0.9 * DVec3::Z), grey(0.7, 0.0));
+    let lamp = rectangle(DVec3::new(-0.5, 1.9, -0.4), 0.6 * DVec3::X, 0.6 * DVec3::Z);
+    add(&mut scene, &lamp, grey(0.0, 8.0));
+    let power = Rgb::gray(12.0);
+    scene.lights.push(LightDescription::Point { position: Vec3::new(0.9, 1.4, 0.6), power });
+    scene
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fronts_are_where_they_should_be() {
+        let front = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).normalize();
+        assert!(floor(1.0, 2.0).into_iter().all(|triangle| front(triangle).distance(DVec3::Y) < 1e-12));
+        assert!(ceiling(1.0, 2.0).into_iter().all(|triangle| front(triangle).distance(DVec3::NEG_Y) < 1e-12));
+        let ball = hollow_ball(2.0, 2);
+        assert_eq!(ball.len(), 128);
+        assert!(ball.into_iter().all(|triangle| front(triangle).dot(triangle[0]) < 0.0));
+    }
+}
