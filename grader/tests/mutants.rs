@@ -102,7 +102,7 @@ fn every_check_fails_on_what_it_is_for() {
         ("hidden-variants/scripted/mis/6", "pick-probability-missing"),
         ("light-pick/scripted/nee/1", "skewed-pick"),
         ("mean-bias/cornell_box_point/nee/1", "receiver-cosine-missing"),
-        ("metamorphic/mixed_lights/nee/8", "samples-clamped-at-ten"),
+        ("metamorphic/light_behind_wall/nee/8", "samples-clamped-at-ten"),
         ("mis-weights/scripted/mis/3", "mis-weights-swapped"),
         ("randomness/cornell_box/nee/8", "same-numbers-for-neighbours"),
         ("randomness/cornell_box/nee/8", "same-numbers-for-every-path"),

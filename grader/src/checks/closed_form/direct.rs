@@ -19,9 +19,15 @@ enum Source {
     Triangle { corners: [DVec3; 3], radiance: [f64; 3] },
 }
 
+/// With more lights than this nobody would want to add up their formulas.
+const MOST_LIGHTS: usize = 64;
+
 /// What each pixel shows; without what lights show of themselves where hits are off.
 pub(super) fn picture(judged: &JudgedScene, hits: Hits, rays: u32) -> Result<Pixels, String> {
     let sources = sources(&judged.description)?;
+    if sources.len() > MOST_LIGHTS {
+        return Err(format!("there are {} lights, too many to add up their formulas", sources.len()));
+    }
     Pixels::integrate(&judged.scene, rays, |ray| {
         let Some(hit) = judged.scene.intersect(ray) else { return Ok([0.0; 3]) };
         let light = hit.light().filter(|_| hits == Hits::On);
