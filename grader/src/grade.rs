@@ -200,6 +200,7 @@ impl Grader {
             sandbox,
             provenance: provenance.clone(),
             convergence: None,
+            images: Vec::new(),
         })
     }
 }

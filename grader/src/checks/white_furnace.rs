@@ -212,7 +212,6 @@ fn albedo(hit: &Hit<'_>) -> [f64; 3] {
 mod tests {
     use super::*;
     use crate::checks::test_scenes::judged;
-    use arty::integrator::Technique;
 
     #[test]
     fn the_series_approaches_its_limit() {
@@ -230,16 +229,17 @@ mod tests {
             ("furnace_diffuse", 3, 1e-3),
             ("furnace_glossy", 1, 2e-3),
             ("furnace_mirror", 4, 1e-3),
-            ("furnace_glass", 32, 5e-3),
+            ("furnace_glass", 64, 5e-3),
         ] {
             let judged = judged(name);
             let furnace = Furnace::recognise(&judged).unwrap_or_else(|why| panic!("{name}: {why}"));
             let view = crate::rubric::View { max_bounces: order, hits: crate::rubric::Hits::On };
-            let expected = judged.reference.views[&view].expected(Technique::Mis).expect("it has mis");
+            let rendered = &judged.reference.views[&view];
             for (pixel, exact) in furnace.picture(&judged.scene, order).iter().enumerate() {
                 for channel in 0..3 {
-                    let (exact, seen) = (exact[channel], expected.mean[pixel][channel]);
-                    let allowed = 6.0 * expected.error[pixel][channel] + tolerance * exact;
+                    let (exact, seen) = (exact[channel], rendered.mean[pixel][channel]);
+                    let noise = rendered.variance_of_mean[pixel][channel].sqrt();
+                    let allowed = 6.0 * noise + tolerance * exact;
                     assert!(
                         (exact - seen).abs() <= allowed,
                         "{name}, pixel {pixel}: {seen} instead of {exact}"
@@ -279,13 +279,13 @@ mod tests {
         assert!(!cap.emission.is_black() && wall.emission.is_black());
         assert!((share - 0.2).abs() < 0.01, "{share}");
         let view = crate::rubric::View { max_bounces: 8, hits: crate::rubric::Hits::On };
-        let expected = judged.reference.views[&view].expected(Technique::Mis).expect("it has mis");
+        let rendered = &judged.reference.views[&view];
         for channel in 0..3 {
             let (emission, albedo) =
                 (f64::from(cap.emission.to_array()[channel]), f64::from(wall.diffuse.to_array()[channel]));
             let exact: f64 = (1..=8).map(|k| share * emission * albedo.powi(k)).sum();
-            // Pixels that show the cap are brighter by what it emits.
-            let dark = expected.mean.iter().filter(|mean| mean[channel] < exact + 0.5 * emission);
+            // Pixels that show some of the cap are brighter by a share of what it emits.
+            let dark = rendered.mean.iter().filter(|mean| mean[channel] < exact + 0.05 * emission);
             let (sum, count) = dark.fold((0.0, 0), |(sum, count), mean| (sum + mean[channel], count + 1));
             let seen = sum / f64::from(count);
             assert!(

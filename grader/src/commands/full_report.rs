@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::build::{Framework, HandInProgram, compile};
 use crate::convergence::{brief, print_sentences};
 use crate::error::{Error, Result};
-use crate::report::{Report, page, pictures};
+use crate::report::{Picture, Report, page, pictures};
 use crate::sandbox::Limits;
 use crate::submission::Submission;
 use crate::workspace::Workspace;
@@ -32,6 +32,7 @@ pub(super) fn complete(
             print_sentences(&convergence);
             report.convergence = Some(convergence);
             shown = pictures(workspace, &hand_in, report, rayon::current_num_threads(), seed)?;
+            report.images = shown.iter().map(Picture::error).collect();
         }
     }
     report.save(file)?;

@@ -19,7 +19,7 @@ use crate::sandbox::{Layers, Level, both, missing};
 use crate::scan::Finding;
 
 pub use page::page;
-pub use pictures::{Picture, pictures};
+pub use pictures::{ImageError, Picture, pictures};
 pub use terminal::{print_check, print_summary};
 
 /// The version of the format.
@@ -55,6 +55,9 @@ pub struct Report {
     /// Error against run time, where it was measured: that begins when the points stand, and changes none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub convergence: Option<Convergence>,
+    /// How far a few pictures are from their references, where they were rendered. That changes no points either.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub images: Vec<ImageError>,
 }
 
 /// What was graded.

@@ -4,12 +4,13 @@ use arty::image::exr::ExrFile;
 use arty::integrator::{Settings, Technique};
 use arty::sampler::batch_seed;
 use host::protocol::{RenderJob, Switches};
+use serde::{Deserialize, Serialize};
 
 use super::{Report, Verdict};
 use crate::build::HandInProgram;
 use crate::error::Result;
 use crate::host_process::HostProcess;
-use crate::image_error::hdr_flip;
+use crate::image_error::{Truth, hdr_flip, mse, relative_mse, smape};
 use crate::rubric::CheckKind;
 use crate::workspace::Workspace;
 
@@ -36,6 +37,46 @@ pub struct Picture {
     pub z: Vec<f64>,
     /// For each pixel how different it looks, from 0 to 1.
     pub flip: Vec<f64>,
+}
+
+/// **reference-image**: how far a picture with few samples is from the reference. Reported, and never deciding: most of
+/// it is noise.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ImageError {
+    /// The scene.
+    pub scene: String,
+    /// The technique.
+    pub technique: Technique,
+    /// The largest number of bounces.
+    pub max_bounces: u32,
+    /// Samples of each pixel of the hand-in.
+    pub samples: u64,
+    /// Mean squared error, in radiance squared.
+    pub mse: f64,
+    /// The same, relative to the reference.
+    pub relative_mse: f64,
+    /// Symmetric mean absolute error, from 0 to 1.
+    pub smape: f64,
+    /// How different it looks, from 0 to 1: the mean of HDR-FLIP. None where a picture is too small for it.
+    pub flip: Option<f64>,
+}
+
+impl Picture {
+    /// Its errors.
+    pub fn error(&self) -> ImageError {
+        let truth = Truth { mean: &self.reference, variance: None };
+        let pixels = self.flip.len() as f64;
+        ImageError {
+            scene: self.scene.clone(),
+            technique: self.technique,
+            max_bounces: self.max_bounces,
+            samples: self.samples,
+            mse: mse(&self.submission, truth),
+            relative_mse: relative_mse(&self.submission, truth),
+            smape: smape(&self.submission, &self.reference),
+            flip: (pixels > 0.0).then(|| self.flip.iter().sum::<f64>() / pixels),
+        }
+    }
 }
 
 /// The most pictures of a page.

@@ -5,6 +5,7 @@ use glam::{DVec3, dvec3};
 use crate::collection::Collection;
 use crate::model::{Material, Model};
 use crate::scene_file::{Camera, ModelUse, SceneFile};
+use crate::shapes::{Bottom, block};
 use crate::solids::icosphere;
 use crate::surface::Surface;
 
@@ -78,23 +79,25 @@ fn uniform(collection: &mut Collection) {
 fn glass(collection: &mut Collection) {
     let name = "furnace_glass";
     let background = icosphere(DVec3::ZERO, RADIUS, 1).flipped();
-    let ball = icosphere(dvec3(-0.2, -0.1, -0.4), 0.6, 2);
+    // Opposite sides are parallel: what came in through one gets out through the other. In a ball of flat triangles some
+    // light would be caught for good.
+    let block = block(dvec3(-0.2, -0.6, -0.4), dvec3(1.0, 0.9, 0.8), 25.0, Bottom::Closed);
     collection.models.push(
-        Model::new(name, "A shining sphere around a ball of glass")
+        Model::new(name, "A shining sphere around a block of glass")
             .with(Material::lamp("background", RADIANCE), background)
-            .with(Material::glass("glass", 1.5, [1.0; 3]), ball),
+            .with(Material::glass("glass", 1.5, [1.0; 3]), block),
     );
     collection.scenes.push(SceneFile {
         name,
         about: &[
-            "A ball of clear glass before a background of radiance 0.5 all around.",
+            "A block of clear glass before a background of radiance 0.5 all around.",
             "Whatever way a path takes through the glass, it ends at the background: each pixel is 0.5, but for",
             "the little that is still on its way after the last bounce.",
         ],
         models: vec![ModelUse::plain(name)],
         camera: CAMERA,
         lights: Vec::new(),
-        max_bounces: 32,
+        max_bounces: 64,
     });
 }
 

@@ -62,7 +62,6 @@ fn only_flat_diffuse(description: &SceneDescription) -> bool {
 mod tests {
     use super::super::test_scenes::judged;
     use super::*;
-    use arty::integrator::Technique;
 
     /// The references are rendered, the closed forms are not: they agree to within the noise of the one and the
     /// quadrature of the other. Of 7 · 768 deviates one is beyond 6 in one of 90,000 sets of references.
@@ -81,11 +80,12 @@ mod tests {
             let pixels =
                 answer(&judged, max_bounces, Hits::On, RAYS).unwrap_or_else(|why| panic!("{name}: {why}"));
             let view = crate::rubric::View { max_bounces, hits: Hits::On };
-            let expected = judged.reference.views[&view].expected(Technique::Mis).expect("it has mis");
+            let rendered = &judged.reference.views[&view];
             for (pixel, exact) in pixels.mean.iter().enumerate() {
                 for channel in 0..3 {
-                    let (exact, seen) = (exact[channel], expected.mean[pixel][channel]);
-                    let noise = expected.error[pixel][channel].hypot(pixels.error[pixel][channel]);
+                    let (exact, seen) = (exact[channel], rendered.mean[pixel][channel]);
+                    let noise =
+                        rendered.variance_of_mean[pixel][channel].sqrt().hypot(pixels.error[pixel][channel]);
                     assert!(
                         (exact - seen).abs() <= 6.0 * noise + 2e-3 * exact,
                         "{name}, pixel {pixel}: {seen} instead of {exact} (± {noise})"

@@ -145,6 +145,15 @@ fn row(check: &CheckResult) -> Markup {
             td class=(class) { (word) }
             td {
                 (check.explanation)
+                @if !check.coefficients.is_empty() {
+                    br; span.soft { "light that is scattered 0, 1, 2, … times counts "
+                        (check.coefficients.iter().map(|c| format!("{c:.3}")).collect::<Vec<_>>().join(", ")) " times" }
+                }
+                @if !check.variance_ratios.is_empty() {
+                    br; span.soft { "variance, relative to the solution's: "
+                        (check.variance_ratios.iter().map(|it| format!("{} {:.2}", it.technique, it.ratio)).collect::<Vec<_>>().join(", ")) }
+                }
+                @for remark in &check.remarks { br; span.soft { "Remark: " (remark) } }
                 details.again { summary { "again" } code { (check.repeat) } }
             }
             td.number { @if let Some(effect) = check.effect { (percent(effect)) } }
@@ -188,7 +197,10 @@ fn provenance(report: &Report) -> Markup {
             div.scroll { table { tbody {
                 tr { th { "hand-in (BLAKE3)" } td { code { (report.submission.hash) } } }
                 @for (key, value) in &report.provenance { tr { th { (key) } td { code { (value) } } } }
-                tr { th { "confinement" } td { (report.sandbox.level) } }
+                tr { th { "confinement" } td { (report.sandbox.level) " " (report.sandbox.missing) } }
+                @for finding in &report.sandbox.findings {
+                    tr { th { "line " (finding.line) } td { code { (finding.what) } ": " (finding.why) } }
+                }
                 tr { th { "seconds" } td { (format!("compiling {:.1}, running {:.1}, all {:.1}", cost.build, cost.run, cost.total)) } }
                 tr { th { "samples that are no radiance" } td { (report.numerics.non_finite) " not finite, " (report.numerics.negative) " negative" } }
             } } }

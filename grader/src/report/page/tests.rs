@@ -66,6 +66,7 @@ fn report() -> Report {
         ),
         provenance: BTreeMap::from([(text(), text())]),
         convergence: None,
+        images: Vec::new(),
     }
 }
 

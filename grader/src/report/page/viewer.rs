@@ -26,9 +26,13 @@ pub(super) fn figure(index: usize, picture: &Picture) -> Markup {
         ("flip", encode(picture.flip.iter())),
     ];
     let label = format!("{scene}, {technique}");
+    let error = picture.error();
+    let flip = error.flip.map_or(String::new(), |flip| format!(", FLIP {flip:.3}"));
+    let errors =
+        format!("relMSE {:.3}, MSE {:.3}, SMAPE {:.3}{flip}", error.relative_mse, error.mse, error.smape);
     html! {
         figure data-width=(width) data-height=(height) {
-            figcaption { b { (label) } " " span.soft { (samples) " samples per pixel, up to " (max_bounces) " bounces" } }
+            figcaption { b { (label) } " " span.soft { (samples) " samples per pixel, up to " (max_bounces) " bounces; with so few of them: " (errors) } }
             div.viewer {
                 div { canvas width=(width) height=(height) tabindex="0" aria-label=(label) {} }
                 div.controls {
