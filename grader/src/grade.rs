@@ -172,6 +172,7 @@ impl Grader {
             automatic_max: total(false),
             manual_max: total(true),
             max: total(false) + total(true),
+            marked: None,
         };
         let numerics = Numerics {
             non_finite: checks.iter().map(|check| check.non_finite).sum(),
@@ -183,6 +184,7 @@ impl Grader {
                 path: clean(&submission.path.display().to_string()),
                 hash: submission.hash(),
                 build_failure,
+                explanations: Vec::new(),
             },
             assignment: rubric.assignment.clone(),
             points,

@@ -16,6 +16,7 @@ pub mod grade;
 pub mod host_process;
 pub mod image_error;
 pub mod intake;
+pub mod marks;
 pub mod mutants;
 pub mod plan;
 pub mod policy;

@@ -7,6 +7,7 @@ mod doctor;
 mod figures;
 mod full_report;
 mod grade;
+mod mark;
 mod mutants;
 mod pack;
 mod plan;
@@ -45,6 +46,8 @@ enum Command {
     Converge(converge::Arguments),
     /// Render the figures of the sheet with the solution (for staff).
     Figures(figures::Arguments),
+    /// Record the points that a person gives for a task.
+    Mark(mark::Arguments),
     /// Grade wrong and right variants of the solution: what is caught, and what is not (for staff).
     Mutants(mutants::Arguments),
     /// Say which checks mean something in a scene, and why others are left out.
@@ -68,6 +71,7 @@ pub fn run() -> ExitCode {
         Command::Pack(arguments) => pack::run(&arguments),
         Command::Converge(arguments) => converge::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
+        Command::Mark(arguments) => mark::run(&arguments),
         Command::Mutants(arguments) => mutants::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Reference(arguments) => reference::run(&arguments),

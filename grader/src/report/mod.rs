@@ -13,7 +13,8 @@ use serde::{Deserialize, Serialize};
 use crate::build::BuildFailure;
 use crate::checks::Weights;
 use crate::convergence::Convergence;
-use crate::error::Result;
+use crate::error::{Error, Result};
+use crate::intake::Explanation;
 use crate::rubric::CheckKind;
 use crate::sandbox::{Layers, Level, both, missing};
 use crate::scan::Finding;
@@ -69,6 +70,9 @@ pub struct SubmissionInfo {
     pub hash: String,
     /// Why it does not compile, if it does not.
     pub build_failure: Option<BuildFailure>,
+    /// Written explanations that came with it, for a person to mark.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub explanations: Vec<Explanation>,
 }
 
 /// Sums of points.
@@ -82,6 +86,9 @@ pub struct Points {
     pub manual_max: f64,
     /// Both together.
     pub max: f64,
+    /// Given by a person so far; none if nobody has marked anything.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub marked: Option<f64>,
 }
 
 /// The points of one task.
@@ -286,6 +293,15 @@ impl Sandbox {
 }
 
 impl Report {
+    /// Reads a report that was saved.
+    ///
+    /// # Errors
+    /// If the file cannot be read, or is none.
+    pub fn load(path: &Path) -> Result<Self> {
+        let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
+        serde_json::from_str(&text).map_err(|error| Error::file(path, error))
+    }
+
     /// Writes the report as JSON.
     pub fn save(&self, path: &Path) -> Result<()> {
         Ok(arty::image::write_aside(path, |writer| serde_json::to_writer_pretty(writer, self))?)

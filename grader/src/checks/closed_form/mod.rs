@@ -81,13 +81,15 @@ mod tests {
                 answer(&judged, max_bounces, Hits::On, RAYS).unwrap_or_else(|why| panic!("{name}: {why}"));
             let view = crate::rubric::View { max_bounces, hits: Hits::On };
             let rendered = &judged.reference.views[&view];
+            let brightest = rendered.mean.iter().flatten().fold(0.0, |most: f64, &mean| most.max(mean));
             for (pixel, exact) in pixels.mean.iter().enumerate() {
                 for channel in 0..3 {
                     let (exact, seen) = (exact[channel], rendered.mean[pixel][channel]);
                     let noise =
                         rendered.variance_of_mean[pixel][channel].sqrt().hypot(pixels.error[pixel][channel]);
                     assert!(
-                        (exact - seen).abs() <= 6.0 * noise + 2e-3 * exact,
+                        // A corner of a pixel that is only just lit may lie between all points of the quadrature.
+                        (exact - seen).abs() <= 6.0 * noise + 2e-3 * exact + 1e-5 * brightest,
                         "{name}, pixel {pixel}: {seen} instead of {exact} (± {noise})"
                     );
                 }

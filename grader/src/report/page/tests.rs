@@ -19,9 +19,10 @@ fn report() -> Report {
             path: text(),
             hash: text(),
             build_failure: Some(crate::build::BuildFailure { messages: text(), line: None }),
+            explanations: Vec::new(),
         },
         assignment: text(),
-        points: Points { earned: 12.5, automatic_max: 70.0, manual_max: 10.0, max: 80.0 },
+        points: Points { earned: 12.5, automatic_max: 70.0, manual_max: 10.0, max: 80.0, marked: Some(7.0) },
         tasks: vec![TaskResult {
             id: "5.1a".to_owned(),
             title: text(),
