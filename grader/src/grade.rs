@@ -149,8 +149,7 @@ impl Grader {
                     left_out.push(LeftOut { check: spec.id(), scene: spec.scene.clone(), why });
                     continue;
                 }
-                let timeouts = checks.iter().filter(|check: &&CheckResult| check.reason == Reason::Timeout);
-                let out_of_time = timeouts.count() >= TIMEOUTS;
+                let out_of_time = out_of_time(&checks);
                 let result = if out_of_time { bench.skip(task, spec) } else { bench.run(task, spec)? };
                 on_check(&result);
                 checks.push(result);
@@ -207,9 +206,13 @@ impl Grader {
     }
 }
 
-/// After so many checks that did not end in time the others are not run: one scene may be too much for a hand-in that is
-/// right in others, but nobody waits for all of them.
-const TIMEOUTS: usize = 2;
+/// True if no more checks are worth their time: one scene may be too much for a hand-in that is right in others, but
+/// nobody waits for one that never ends.
+fn out_of_time(checks: &[CheckResult]) -> bool {
+    let late = |check: &CheckResult| check.reason == Reason::Timeout;
+    let in_a_row = checks.iter().rev().take_while(|check| late(check)).count();
+    in_a_row >= 2 || checks.iter().filter(|check| late(check)).count() >= 4
+}
 
 type Selected<'a> = Vec<(&'a Task, &'a CheckSpec)>;
 

@@ -98,7 +98,7 @@ fn every_check_fails_on_what_it_is_for() {
         ("closed-form/polygon_plane/nee/1", "light-cosine-missing"),
         ("efficiency/cornell_box/nee/1", "nee-for-point-lights-only"),
         ("efficiency/cornell_box/mis/1", "mis-is-bsdf-sampling"),
-        ("efficiency/veach_mis/mis/1", "mis-is-nee"),
+        ("efficiency/glossy_plane/mis/1", "mis-is-nee"),
         ("hidden-variants/scripted/mis/6", "pick-probability-missing"),
         ("light-pick/scripted/nee/1", "skewed-pick"),
         ("mean-bias/cornell_box_point/nee/1", "receiver-cosine-missing"),

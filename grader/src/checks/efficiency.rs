@@ -72,7 +72,8 @@ pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult)
         }
     }
     let factor = ratio.ratio();
-    let lacking = ratio.at_least(LEVEL) > LACKING && nearest.0 != spec.technique;
+    // Noisier than the solution, and just as noisy as what it is made of: anything else is a style of its own.
+    let lacking = ratio.at_least(LEVEL) > LACKING && nearest.0 != spec.technique && nearest.1 < LACKING.ln();
     (result.verdict, result.reason, result.explanation) = if lacking {
         let what = match nearest.0 {
             Technique::Bsdf => "as noisy as BSDF sampling: light samples have no part in it",

@@ -178,20 +178,23 @@ impl Calibration<'_> {
     /// Whole grades.
     fn grade(&mut self) -> Result<()> {
         let bar = ProgressBar::new(self.arguments.grades);
-        for number in 0..self.arguments.grades {
-            if self.is_over() {
-                return Ok(());
-            }
-            let variant = &self.right[number as usize % self.right.len()];
+        let (grades, variants) = (self.arguments.grades, self.right.len() as u64);
+        for seed in 1..=grades.div_ceil(variants) {
+            let wanted = (grades - (seed - 1) * variants).min(variants) as usize;
+            let right: Vec<&Variant> = self.right.iter().take(wanted).collect();
             let options = Options {
                 assignment: self.arguments.assignment.clone(),
-                seed: 1 + number / self.right.len() as u64,
+                seed,
                 threads: self.threads,
                 only: Vec::new(),
                 limits: Limits::default(),
             };
-            self.ledger.grade(self.workspace, variant, &options)?;
-            bar.inc(1);
+            let deadline = self.deadline;
+            let is_over = || deadline.is_some_and(|deadline| std::time::Instant::now() >= deadline);
+            if is_over() {
+                break;
+            }
+            self.ledger.grade(self.workspace, &right, &options, is_over, |_| bar.inc(1))?;
         }
         bar.finish_and_clear();
         Ok(())

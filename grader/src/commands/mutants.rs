@@ -3,6 +3,8 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use indicatif::ProgressBar;
+
 use crate::error::{Error, Result};
 use crate::grade::Options;
 use crate::mutants::{Ledger, Outcome, Record, Variant, table, variants};
@@ -25,7 +27,7 @@ pub(super) struct Arguments {
     /// Folder of the results; those that are there already are used [default: target/mutants]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Threads for the variants [default: one for each core]
+    /// Variants that are graded at the same time, each with one thread [default: one for each core]
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
 }
@@ -44,18 +46,18 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let mut ledger = Ledger::open(&folder, &workspace, &arguments.assignment)?;
     let threads = arguments.jobs.unwrap_or_else(rayon::current_num_threads).max(1);
 
+    let bar = ProgressBar::new(arguments.seeds * selected.len() as u64);
+    for seed in 1..=arguments.seeds {
+        let assignment = arguments.assignment.clone();
+        let options = Options { assignment, seed, threads, only: Vec::new(), limits: Limits::default() };
+        ledger.grade(&workspace, &selected, &options, || false, |_| bar.inc(1))?;
+    }
+    bar.finish_and_clear();
     let mut unexpected = 0;
-    for (index, variant) in selected.iter().enumerate() {
-        for seed in 1..=arguments.seeds {
-            let assignment = arguments.assignment.clone();
-            let limits = Limits::default();
-            let options = Options { assignment, seed, threads, only: Vec::new(), limits };
-            ledger.grade(&workspace, variant, &options)?;
-        }
+    for variant in &selected {
         let records = ledger.records(variant);
         let outcome = Outcome::new(variant, &records);
         unexpected += usize::from(!outcome.unexpected.is_empty());
-        eprint!("{}/{} ", index + 1, selected.len());
         println!("{}", describe(variant, &records, &outcome));
     }
 

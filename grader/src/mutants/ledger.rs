@@ -3,12 +3,14 @@
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
 
 use super::Variant;
 use crate::error::{Error, Result};
-use crate::grade::{Options, grade};
+use crate::grade::{Grader, Options};
 use crate::report::{Report, Verdict};
 use crate::submission::Submission;
 use crate::workspace::Workspace;
@@ -64,27 +66,48 @@ impl Ledger {
         self.records.iter().filter(|record| record.key == key && record.variant == variant.id).collect()
     }
 
-    /// Grades a variant, unless the result is there already.
+    /// Grades variants, unless the result is there already: `jobs` at a time, each with one thread, so that none waits for
+    /// another. `on_record` is told of each result as it is written; no new one is begun once `stop` says so.
     ///
     /// # Errors
-    /// What is not the variant's doing.
-    pub fn grade(&mut self, workspace: &Workspace, variant: &Variant, options: &Options) -> Result<()> {
-        if self.records(variant).iter().any(|record| record.seed == options.seed) {
+    /// What is not the variants' doing.
+    pub fn grade(
+        &mut self,
+        workspace: &Workspace,
+        variants: &[&Variant],
+        options: &Options,
+        stop: impl Fn() -> bool + Sync,
+        on_record: impl Fn(&Record) + Sync,
+    ) -> Result<()> {
+        let is_known = |variant: &&Variant| self.records(variant).iter().any(|it| it.seed == options.seed);
+        let missing: Vec<&Variant> = variants.iter().copied().filter(|variant| !is_known(variant)).collect();
+        if missing.is_empty() {
             return Ok(());
         }
-        let submission =
-            Submission { path: PathBuf::from(format!("{}.rs", variant.id)), source: variant.source.clone() };
-        let report = grade(workspace, &submission, options, |_| {})?;
-        let record = record(self.key(variant), variant, options.seed, &report);
-        let line = serde_json::to_string(&record).map_err(|error| Error::Harness(error.to_string()))?;
-        std::fs::OpenOptions::new()
-            .create(true)
-            .append(true)
-            .open(&self.path)
-            .and_then(|mut file| writeln!(file, "{line}"))
-            .map_err(|error| Error::file(&self.path, error))?;
-        self.records.push(record);
-        Ok(())
+        let grader = Grader::new(workspace, &Options { threads: 1, ..options.clone() })?;
+        let trouble = |error: std::io::Error| Error::file(&self.path, error);
+        let file = std::fs::OpenOptions::new().create(true).append(true).open(&self.path).map_err(trouble)?;
+        let written = Mutex::new((file, Vec::new()));
+        let grade_one = |variant: &&Variant| -> Result<()> {
+            if stop() {
+                return Ok(());
+            }
+            let path = PathBuf::from(format!("{}.rs", variant.id));
+            let report = grader.grade(&Submission { path, source: variant.source.clone() }, |_| {})?;
+            let record = record(self.key(variant), variant, options.seed, &report);
+            let line = serde_json::to_string(&record).map_err(|error| Error::Harness(error.to_string()))?;
+            on_record(&record);
+            let mut written = written.lock().unwrap_or_else(PoisonError::into_inner);
+            writeln!(written.0, "{line}").map_err(trouble)?;
+            written.1.push(record);
+            Ok(())
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build();
+        let pool = pool.map_err(|error| Error::Harness(format!("no threads: {error}")))?;
+        let outcome = pool.install(|| missing.par_iter().with_max_len(1).try_for_each(grade_one));
+        let (_, records) = written.into_inner().unwrap_or_else(PoisonError::into_inner);
+        self.records.extend(records);
+        outcome
     }
 
     fn key(&self, variant: &Variant) -> String {

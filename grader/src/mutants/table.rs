@@ -16,7 +16,7 @@ pub fn table(variants: &Variants, rubric: &Rubric, records: &[Vec<&Record>]) -> 
     let mut text = String::from(
         "# Which check catches which mistake\n\nMade by `cargo grader mutants`; do not edit. The variants stand in \
          `wrong.yml` and `right.yml`.\n\n`·` pass, `F` fail, `?` inconclusive (no points), several where seeds differ. \
-         Points are the fewest over all seeds, for right variants too; seconds are the mean over them, on two cores.\n\n",
+         Points are the fewest over all seeds, for right variants too; seconds are the mean over them, on one core.\n\n",
     );
     for (kind, title) in [(Kind::Wrong, "Wrong variants"), (Kind::Right, "Right variants")] {
         let rows = || variants.list.iter().zip(records).filter(|(variant, _)| variant.kind == kind);

@@ -22,6 +22,7 @@ pub(super) fn add_to(collection: &mut Collection) {
     four_lights(collection);
     tiles(collection);
     two_planes(collection);
+    large_light(collection);
 }
 
 /// A single light, over the plane that others use as well.
@@ -155,5 +156,32 @@ fn two_planes(collection: &mut Collection) {
         camera: Camera { eye: dvec3(0.0, 0.5, 0.0), center: dvec3(0.6, 0.47, -1.0), fov: 100.0 },
         lights: Vec::new(),
         max_bounces: 8,
+    });
+}
+
+/// Lights that fill much of what a glossy plane mirrors.
+fn large_light(collection: &mut Collection) {
+    collection.models.push(
+        Model::new("glossy_plane", "A glossy plane below large lights")
+            .with(
+                Material::glossy("gloss", [0.05; 3], [0.7, 0.6, 0.5], 120.0),
+                floor(0.0, [-4.0, 4.0], [-5.0, 3.0]),
+            )
+            // Unequal and apart, so that the lobe does not see the same everywhere.
+            .with(Material::lamp("left_light", [1.0; 3]), ceiling(2.5, [-3.0, -1.1], [-6.0, 1.0]))
+            .with(Material::lamp("middle_light", [0.4; 3]), ceiling(2.5, [-0.8, 0.8], [-6.0, 1.0]))
+            .with(Material::lamp("right_light", [2.0; 3]), ceiling(2.5, [1.1, 3.0], [-6.0, 1.0])),
+    );
+    collection.scenes.push(SceneFile {
+        name: "glossy_plane",
+        about: &[
+            "A glossy plane that mirrors large lights: directions of the lobe find them nearly always, while hardly",
+            "any point of them lies where the lobe looks. So next event estimation alone is many times as noisy as",
+            "multiple importance sampling.",
+        ],
+        models: vec![ModelUse::plain("glossy_plane")],
+        camera: camera(),
+        lights: Vec::new(),
+        max_bounces: 1,
     });
 }
