@@ -65,9 +65,11 @@ pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult)
     result.variance_ratios.push(VarianceOf { technique: spec.technique, ratio: ratio.ratio() });
     let mut nearest = (spec.technique, ratio.log.abs());
     for &technique in rivals(spec.technique) {
-        let Some(to_rival) = ratio_to(&moments(technique)?) else { continue };
+        let rival = moments(technique)?;
+        let Some(to_rival) = ratio_to(&rival) else { continue };
         result.variance_ratios.push(VarianceOf { technique, ratio: to_rival.ratio() });
-        if to_rival.log.abs() < nearest.1 {
+        // A technique that is hardly noisier here does not tell.
+        if total(&rival) / total(&own) >= TELLING && to_rival.log.abs() < nearest.1 {
             nearest = (technique, to_rival.log.abs());
         }
     }
