@@ -7,6 +7,8 @@ mod doctor;
 mod figures;
 mod full_report;
 mod grade;
+mod lateness;
+mod least_sandbox;
 mod mutants;
 mod pack;
 mod plan;

@@ -14,6 +14,7 @@ use crate::build::BuildFailure;
 use crate::checks::Weights;
 use crate::convergence::Convergence;
 use crate::error::Result;
+use crate::intake;
 use crate::rubric::CheckKind;
 use crate::sandbox::{Layers, Level, both, missing};
 use crate::scan::Finding;
@@ -64,8 +65,14 @@ pub struct SubmissionInfo {
     pub path: String,
     /// BLAKE3 of the source.
     pub hash: String,
-    /// Why it does not compile, if it does not.
+    /// Why it does not compile, if it does not. Where there was nothing to compile, this says so, too.
     pub build_failure: Option<BuildFailure>,
+    /// Why there was nothing to compile, with its code.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub refusal: Option<intake::Finding>,
+    /// What was odd when it was taken in. It costs no points.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<intake::Finding>,
 }
 
 /// Sums of points.
