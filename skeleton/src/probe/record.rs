@@ -4,6 +4,7 @@
 
 use std::cell::{Cell, RefCell};
 
+use super::Key;
 use crate::math::{Rgb, Vec3};
 
 /// Calls that are kept of one path; the rest are only counted.
