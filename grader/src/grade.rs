@@ -192,7 +192,9 @@ impl Grader {
             rubric.tasks.iter().map(|task| mark(task, &selected, &checks, &left_out, nothing_ran)).collect();
         let tasks = require(rubric, tasks, &checks);
         let total = |manual: bool| {
-            rubric.tasks.iter().filter(|task| task.manual == manual).map(|task| task.points).sum()
+            let tasks = rubric.tasks.iter().filter(|task| task.manual == manual);
+            // The library's own sum of nothing is −0.
+            tasks.fold(0.0, |sum, task| sum + task.points)
         };
         let points = Points {
             earned: tasks.iter().filter_map(|task| task.points).fold(0.0, |sum, points| sum + points),

@@ -20,7 +20,7 @@ pub struct Limits {
     pub answer: u32,
     /// False only to measure what the sandbox costs: files and system calls are not locked away then.
     pub sandbox: bool,
-    /// The worst sandbox that hand-ins are graded in.
+    /// The worst sandbox in which anything of a hand-in is compiled or run.
     pub least: Level,
 }
 
