@@ -6,10 +6,11 @@ use std::time::Instant;
 
 use arty::scene::Scene;
 
-use crate::build::{Framework, HandInProgram, compile};
+use crate::build::{BuildFailure, Framework, HandInProgram, compile};
 use crate::checks::{Bench, JudgedScene};
 use crate::error::{Error, Result};
 use crate::host_process::HostProcess;
+use crate::intake;
 use crate::plan;
 use crate::reference;
 use crate::replay::quote;
@@ -23,6 +24,7 @@ use crate::scan::scan;
 use crate::statistics::sequential::SCREENING_LEVEL;
 use crate::submission::Submission;
 use crate::text::clean;
+use crate::trial;
 use crate::workspace::Workspace;
 
 /// What a grade is told beside the hand-in.
@@ -78,6 +80,7 @@ impl Grader {
         let framework_start = Instant::now();
         let framework = Framework::build(workspace)?;
         let framework_time = framework_start.elapsed().as_secs_f64();
+        trial::require_on_this_machine(&framework, &options.limits)?;
         let solution = solution(workspace, &framework, &selected)?;
         let provenance = BTreeMap::from([
             ("grader".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
@@ -114,13 +117,34 @@ impl Grader {
     ///
     /// # Errors
     /// What is not the hand-in's doing.
-    pub fn grade(&self, submission: &Submission, mut on_check: impl FnMut(&CheckResult)) -> Result<Report> {
+    pub fn grade(&self, submission: &Submission, on_check: impl FnMut(&CheckResult)) -> Result<Report> {
+        self.judge(submission, None, on_check)
+    }
+
+    /// The report on a hand-in in which there is nothing to grade: no points, and why.
+    ///
+    /// # Errors
+    /// None that a hand-in could cause.
+    pub fn refuse(&self, path: &Path, refusal: &intake::Refusal) -> Result<Report> {
+        let nothing = Submission { path: path.to_owned(), source: String::new() };
+        self.judge(&nothing, Some(refusal), |_| {})
+    }
+
+    fn judge(
+        &self,
+        submission: &Submission,
+        refusal: Option<&intake::Refusal>,
+        mut on_check: impl FnMut(&CheckResult),
+    ) -> Result<Report> {
         let start = Instant::now();
         let Self { options, rubric, scenes, framework, framework_time, solution, workspace, provenance } =
             self;
         let selected = select(rubric, &options.only)?;
         let build_start = Instant::now();
-        let built = compile(framework, &submission.source, &options.limits)?;
+        let built = match refusal {
+            None => compile(framework, &submission.source, &options.limits)?,
+            Some(refusal) => Err(BuildFailure { messages: clean(&format!("{refusal}\n")), line: None }),
+        };
         let build_time = build_start.elapsed().as_secs_f64();
 
         let run_start = Instant::now();
@@ -131,6 +155,7 @@ impl Grader {
         if let Ok(program) = &built {
             let host = HostProcess::start(program, options.threads)?.layers();
             sandbox = Sandbox::new(program.layers, host, sandbox.findings);
+            trial::require(&sandbox, options.limits.least)?;
             let path = quote(&submission.path);
             let Options { assignment, seed, threads, .. } = options;
             let bench = Bench {
@@ -157,14 +182,18 @@ impl Grader {
         }
         let run_time = run_start.elapsed().as_secs_f64();
         let build_failure = built.err();
-        let tasks: Vec<TaskResult> = rubric
-            .tasks
-            .iter()
-            .map(|task| mark(task, &selected, &checks, &left_out, build_failure.is_some()))
-            .collect();
+        let nothing_ran = match (&build_failure, refusal) {
+            (None, _) => None,
+            (Some(_), None) => Some("the hand-in does not compile"),
+            (Some(_), Some(_)) => Some("there is nothing that can be graded"),
+        };
+        let tasks: Vec<TaskResult> =
+            rubric.tasks.iter().map(|task| mark(task, &selected, &checks, &left_out, nothing_ran)).collect();
         let tasks = require(rubric, tasks, &checks);
         let total = |manual: bool| {
-            rubric.tasks.iter().filter(|task| task.manual == manual).map(|task| task.points).sum()
+            let tasks = rubric.tasks.iter().filter(|task| task.manual == manual);
+            // The library's own sum of nothing is −0.
+            tasks.fold(0.0, |sum, task| sum + task.points)
         };
         let points = Points {
             earned: tasks.iter().filter_map(|task| task.points).fold(0.0, |sum, points| sum + points),
@@ -184,6 +213,8 @@ impl Grader {
                 hash: submission.hash(),
                 build_failure,
                 explanations: Vec::new(),
+                refusal: refusal.map(intake::Finding::from),
+                notes: Vec::new(),
             },
             assignment: rubric.assignment.clone(),
             points,
@@ -282,7 +313,7 @@ fn mark(
     selected: &Selected<'_>,
     results: &[CheckResult],
     left_out: &[LeftOut],
-    build_failed: bool,
+    nothing_ran: Option<&str>,
 ) -> TaskResult {
     let ids: Vec<String> = task.checks.iter().map(CheckSpec::id).collect();
     let mut result = TaskResult {
@@ -297,9 +328,9 @@ fn mark(
         result.reason = "marked by a person".to_owned();
         return result;
     }
-    if build_failed {
+    if let Some(why) = nothing_ran {
         result.points = Some(0.0);
-        result.reason = "the hand-in does not compile".to_owned();
+        result.reason = why.to_owned();
         return result;
     }
     let was_selected =

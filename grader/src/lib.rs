@@ -31,4 +31,5 @@ pub mod statistics;
 pub mod submission;
 pub mod table;
 pub mod text;
+mod trial;
 pub mod workspace;

@@ -84,6 +84,50 @@ fn what_staff_or_student_typed_wrong_ends_with_2_and_one_clear_message() {
 }
 
 #[test]
+fn what_is_there_and_cannot_be_graded_has_no_points_and_a_code() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("render_pt.rs");
+    for (bytes, code) in [
+        (b"// x\n".repeat(200_000), "too-large"),
+        (b"PK\x03\x04 a Word document".to_vec(), "not-source"),
+        (Vec::new(), "empty"),
+    ] {
+        std::fs::write(&file, bytes).expect("it can be written");
+        let graded = grader(folder.path(), &["grade", "render_pt.rs", "--fail-under=1", "--out=here"]);
+        assert_eq!(graded.status.code(), Some(1), "{code}: {}", stderr(&graded));
+        let report = std::fs::read(folder.path().join("here/report.json")).expect("the report is there");
+        let report: serde_json::Value = serde_json::from_slice(&report).expect("the report is JSON");
+        assert_eq!(report["submission"]["refusal"]["code"], code);
+        assert_eq!(report["points"]["earned"], 0.0);
+        assert!(folder.path().join("here/report.html").is_file(), "{code}");
+    }
+}
+
+#[test]
+fn a_grade_says_what_was_odd_and_what_being_late_costs() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let solution = Path::new(env!("CARGO_MANIFEST_DIR")).join("../solution/src/algorithms/render_pt.rs");
+    let solution = std::fs::read_to_string(solution).expect("the solution is there");
+    let with_mark = format!("\u{feff}{}", solution.replace('\n', "\r\n"));
+    std::fs::write(folder.path().join("mine.rs"), with_mark).expect("it can be written");
+    std::fs::write(folder.path().join("course.yml"), "deadline: 2026-05-21 23:59\n")
+        .expect("it can be written");
+    let arguments = [
+        "grade",
+        "mine.rs",
+        "--no-report",
+        "--assignment=../grader/hostile",
+        "--course=course.yml",
+        "--received-at=2026-05-22 01:00",
+    ];
+    let graded = grader(folder.path(), &arguments);
+    assert_eq!(graded.status.code(), Some(0), "{}", stderr(&graded));
+    assert!(stderr(&graded).contains("note: line ends of another system"), "{}", stderr(&graded));
+    let said = String::from_utf8_lossy(&graded.stdout).into_owned();
+    assert!(said.contains("× 0.8; 8 of 10 points count"), "{said}");
+}
+
+#[test]
 #[cfg(unix)]
 fn a_closed_pipe_costs_nobody_the_report() {
     let folder = tempfile::tempdir().expect("a temporary folder");

@@ -43,11 +43,15 @@ enum Outcome {
     Crash,
     Timeout,
     Numerics,
+    Violation,
     Any,
 }
 
 /// The one check that all of them are held to.
 const CHECK: &str = "mean-bias/point_plane/nee/1";
+
+/// The rubric that has it, as a folder below `assignments/`.
+const ASSIGNMENT: &str = "../grader/hostile";
 
 /// Short, so that those that never end do so soon.
 fn limits() -> Limits {
@@ -67,7 +71,7 @@ fn workspace() -> Workspace {
 fn grade_source(workspace: &Workspace, source: String) -> Report {
     let submission = Submission { path: PathBuf::from("render_pt.rs"), source };
     let options = Options {
-        assignment: "05-nee-mis".to_owned(),
+        assignment: ASSIGNMENT.to_owned(),
         seed: 1,
         threads: 2,
         only: vec![CHECK.to_owned()],
@@ -131,6 +135,7 @@ fn complaint(attack: &Attack, report: &Report) -> Option<String> {
                     Outcome::Crash => check.reason == Reason::Crash,
                     Outcome::Timeout => check.reason == Reason::Timeout,
                     Outcome::Numerics => check.reason == Reason::Numerics,
+                    Outcome::Violation => check.reason == Reason::Violation,
                     Outcome::Any => true,
                 };
             if !as_expected {
@@ -229,8 +234,77 @@ fn without_a_sandbox_the_report_says_so() {
     let submission = Submission::read(&workspace.solution_file()).expect("the solution is there");
     let limits = Limits { sandbox: false, ..limits() };
     let only = vec![CHECK.to_owned()];
-    let options = Options { assignment: "05-nee-mis".to_owned(), seed: 1, threads: 2, only, limits };
+    let assignment = ASSIGNMENT.to_owned();
+    let options = Options { assignment, seed: 1, threads: 2, only, limits };
     let report = grade(&workspace, &submission, &options, |_| {}).expect("the harness works");
     assert!(report.sandbox.level < Level::Medium, "{:?}", report.sandbox);
     assert!(report.sandbox.missing.contains("Landlock"), "{:?}", report.sandbox);
+}
+
+#[test]
+fn where_a_sandbox_is_asked_for_nothing_is_graded_without() {
+    let workspace = workspace();
+    let submission = Submission::read(&workspace.solution_file()).expect("the solution is there");
+    let limits = Limits { sandbox: false, least: Level::Medium, ..limits() };
+    let options =
+        Options { assignment: ASSIGNMENT.to_owned(), seed: 1, threads: 2, only: Vec::new(), limits };
+    let error = grade(&workspace, &submission, &options, |_| {}).expect_err("it is refused").to_string();
+    assert!(error.contains("--allow-sandbox=none") && error.contains("Landlock"), "{error}");
+}
+
+/// The processes that a process has started, and that live.
+fn children_of(parent: u32) -> Vec<u32> {
+    let numbers = std::fs::read_dir("/proc").expect("Linux has it").flatten();
+    let numbers = numbers.filter_map(|entry| entry.file_name().to_string_lossy().parse::<u32>().ok());
+    numbers
+        .filter(|number| {
+            // `number (name) state parent …`, and a name may have spaces.
+            let stat = std::fs::read_to_string(format!("/proc/{number}/stat")).unwrap_or_default();
+            let after = stat.rsplit_once(')').map_or("", |(_, after)| after);
+            let mut fields = after.split_whitespace();
+            fields.next().is_some_and(|state| state != "Z")
+                && fields.next() == Some(parent.to_string().as_str())
+        })
+        .collect()
+}
+
+#[test]
+fn a_grader_that_is_killed_leaves_no_hand_in_behind_that_runs() {
+    let workspace = workspace();
+    for (attack, name) in [("sleep", "hand-in"), ("const_loop", "rustc")] {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let mut grader = std::process::Command::new(env!("CARGO_BIN_EXE_grader"))
+            .args(["grade", "--no-report", "--assignment", ASSIGNMENT])
+            .arg(workspace.root().join(format!("grader/hostile/{attack}.rs")))
+            .current_dir(folder.path())
+            .stdout(std::process::Stdio::null())
+            .stderr(std::process::Stdio::null())
+            .spawn()
+            .expect("the program starts");
+        let start = Instant::now();
+        let is_called = |number: &u32| {
+            let called = std::fs::read_to_string(format!("/proc/{number}/comm")).unwrap_or_default();
+            called.trim() == name
+        };
+        let mut running: Option<(u32, Instant)> = None;
+        // It has to be the same one for a while: rustc is asked for its version first, and honest hand-ins are short.
+        while running.is_none_or(|(_, since)| since.elapsed() < Duration::from_secs(2)) {
+            assert!(start.elapsed() < Duration::from_secs(300), "{attack}: it never runs");
+            assert!(grader.try_wait().expect("it can be asked").is_none(), "{attack}: it ended too soon");
+            let found = children_of(grader.id()).into_iter().find(is_called);
+            running = match (found, running) {
+                (Some(found), Some((known, since))) if found == known => Some((known, since)),
+                (found, _) => found.map(|found| (found, Instant::now())),
+            };
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        grader.kill().expect("it can be killed");
+        grader.wait().expect("it has ended");
+        let (number, _) = running.expect("it was found");
+        let killed = Instant::now();
+        while is_called(&number) {
+            assert!(killed.elapsed() < Duration::from_secs(20), "{attack}: {name} goes on");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use arty::integrator::Integrator;
 use arty::math::Rgb;
-use arty::probe::{self, take_counts};
+use arty::probe::{self, Key, take_counts};
 use arty::ray::Ray;
 use arty::sampler::Sampler;
 use arty::scene::Scene;
@@ -11,7 +11,7 @@ use crate::protocol::{ProbeJob, ProbedPath, ScriptedScene};
 use crate::serve::Constructor;
 
 /// All paths of a job, scene by scene.
-pub(crate) fn all(constructor: Constructor, job: &ProbeJob) -> Vec<Vec<ProbedPath>> {
+pub(crate) fn all(key: &Key, constructor: Constructor, job: &ProbeJob) -> Vec<Vec<ProbedPath>> {
     let integrator = constructor(job.settings);
     job.scenes
         .iter()
@@ -19,11 +19,11 @@ pub(crate) fn all(constructor: Constructor, job: &ProbeJob) -> Vec<Vec<ProbedPat
             let scene = build(scripted);
             let ray = Ray::new(scripted.origin, scripted.direction);
             let paths = (0..job.samples).map(|sample| {
-                probe::set_strata(job.stratified.then(|| strata(job, sample)));
-                path(&*integrator, &scene, ray, job.seed, sample)
+                probe::set_strata(key, job.stratified.then(|| strata(job, sample)));
+                path(key, &*integrator, &scene, ray, job.seed, sample)
             });
             let paths = paths.collect();
-            probe::set_strata(None);
+            probe::set_strata(key, None);
             paths
         })
         .collect()
@@ -33,10 +33,17 @@ fn strata(job: &ProbeJob, sample: u64) -> probe::Strata {
     probe::Strata { path: sample as u32, count: job.samples as u32, seed: job.seed as u32 }
 }
 
-fn path(integrator: &dyn Integrator, scene: &Scene, ray: Ray, seed: u64, sample: u64) -> ProbedPath {
-    take_counts();
+fn path(
+    key: &Key,
+    integrator: &dyn Integrator,
+    scene: &Scene,
+    ray: Ray,
+    seed: u64,
+    sample: u64,
+) -> ProbedPath {
+    take_counts(key);
     let radiance = integrator.radiance(scene, ray, &mut Sampler::new(seed, (0, 0), sample)).to_array();
-    let probe::Counts { rays, shadow_rays, light_samples, bsdf_samples } = take_counts();
+    let probe::Counts { rays, shadow_rays, light_samples, bsdf_samples } = take_counts(key);
     ProbedPath { radiance, rays, shadow_rays, light_samples, bsdf_samples }
 }
 

@@ -1,6 +1,6 @@
 //! Following one path, with every call written down.
 
-use arty::probe::{self, start_recording, take_recording};
+use arty::probe::{self, Key, start_recording, take_recording};
 use arty::render::sample_pixel;
 use arty::scene::Scene;
 
@@ -8,14 +8,14 @@ use crate::protocol::{Call, ReplayJob, Replayed};
 use crate::serve::Constructor;
 
 /// Computes one sample again.
-pub(crate) fn path(constructor: Constructor, scene: &Scene, job: &ReplayJob) -> Replayed {
+pub(crate) fn path(key: &Key, constructor: Constructor, scene: &Scene, job: &ReplayJob) -> Replayed {
     let integrator = constructor(job.settings);
     let [width, height] = job.size;
     let [x, y] = job.pixel;
     let camera = scene.camera(width, height);
-    start_recording();
+    start_recording(key);
     let radiance = sample_pixel(&*integrator, scene, &camera, job.seed, (x, y), job.sample);
-    let recording = take_recording();
+    let recording = take_recording(key);
     let values = |values: Vec<probe::Value>| {
         values.into_iter().map(|value| (value.name.to_owned(), value.numbers)).collect()
     };

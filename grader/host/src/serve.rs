@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use std::sync::Mutex;
 
 use arty::integrator::{Integrator, Settings};
+use arty::probe::Key;
 use arty::scene::Scene;
 
 use crate::confine::{Layers, confine};
@@ -25,13 +26,17 @@ pub fn serve(constructor: Constructor) -> ExitCode {
             return ExitCode::from(3);
         }
     };
+    let Some(key) = Key::take() else {
+        eprintln!("host: it serves only once in a process");
+        return ExitCode::from(3);
+    };
     // No code of the hand-in has run so far. The staff may ask for a process without a sandbox: to measure what it costs.
     let unconfined = std::env::args().nth(1).is_some_and(|argument| argument == UNCONFINED);
     let layers = if unconfined { Layers::default() } else { confine() };
     keep_panic_messages();
     let mut output = BufWriter::new(output);
     let answered = write_message(&mut output, &Response::Started(layers))
-        .and_then(|()| answer_all(constructor, &mut BufReader::new(input), &mut output));
+        .and_then(|()| answer_all(&key, constructor, &mut BufReader::new(input), &mut output));
     match answered {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
@@ -42,6 +47,7 @@ pub fn serve(constructor: Constructor) -> ExitCode {
 }
 
 fn answer_all(
+    key: &Key,
     constructor: Constructor,
     input: &mut impl Read,
     output: &mut impl Write,
@@ -64,7 +70,7 @@ fn answer_all(
                 None => Response::Rejected { message: format!("there is no scene {}", job.scene) },
                 Some(scene) => {
                     scene.set_switches(switches(job.switches));
-                    guarded(|| Response::Replayed(replay::path(constructor, scene, &job)))
+                    guarded(|| Response::Replayed(replay::path(key, constructor, scene, &job)))
                 }
             },
             Request::Probe(job)
@@ -72,7 +78,7 @@ fn answer_all(
             {
                 Response::Rejected { message: format!("{} paths cannot be stratified", job.samples) }
             }
-            Request::Probe(job) => guarded(|| Response::Probed(probe::all(constructor, &job))),
+            Request::Probe(job) => guarded(|| Response::Probed(probe::all(key, constructor, &job))),
         };
         write_message(output, &response)?;
     }

@@ -5,13 +5,12 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
-use serde::{Deserialize, Serialize};
-use tempfile::TempDir;
-
 use super::Framework;
+use super::scratch::Scratch;
 use crate::error::{Error, Result};
 use crate::sandbox::{self, Layers, Limits, Profile};
 use crate::text::clean;
+use serde::{Deserialize, Serialize};
 
 /// The program around a hand-in.
 const PROGRAM: &str = include_str!("../../host/program/main.rs");
@@ -27,7 +26,7 @@ pub struct HandInProgram {
     pub limits: Limits,
     /// How rustc was confined.
     pub layers: Layers,
-    _folder: TempDir,
+    _folder: Scratch,
 }
 
 /// Why a hand-in does not compile.
@@ -40,7 +39,7 @@ pub struct BuildFailure {
 }
 
 /// A hand-in that compiles wherever compiling works at all.
-const EMPTY_HAND_IN: &str = "use arty::prelude::*;
+pub(crate) const EMPTY_HAND_IN: &str = "use arty::prelude::*;
 pub struct PathTracer;
 impl PathTracer { pub fn new(_: Settings) -> Self { Self } }
 impl Integrator for PathTracer {
@@ -78,10 +77,7 @@ fn compile_once(
     locked: bool,
 ) -> Result<std::result::Result<HandInProgram, BuildFailure>> {
     let trouble = |what: &str, error: std::io::Error| Error::Harness(format!("{what}: {error}"));
-    let folder = tempfile::Builder::new()
-        .prefix("arty-hand-in-")
-        .tempdir()
-        .map_err(|error| trouble("no temporary folder", error))?;
+    let folder = Scratch::new().map_err(|error| trouble("no temporary folder", error))?;
     for (name, text) in [("main.rs", PROGRAM), ("render_pt.rs", source)] {
         std::fs::write(folder.path().join(name), text)
             .map_err(|error| trouble("the hand-in cannot be copied", error))?;

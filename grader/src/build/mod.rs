@@ -2,6 +2,8 @@
 
 mod compile;
 mod framework;
+mod scratch;
 
+pub(crate) use compile::EMPTY_HAND_IN;
 pub use compile::{BuildFailure, HandInProgram, compile};
 pub use framework::Framework;

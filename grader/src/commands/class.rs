@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use jiff::tz::TimeZone;
 
+use super::least_sandbox::LeastSandbox;
 use super::policy::policy;
 use crate::class::gradebook::{Row, State, save_class, save_gradebook};
 use crate::class::{Class, RunOptions, has_results, roster, run, similar, systems};
@@ -12,7 +13,6 @@ use crate::error::{Error, Result};
 use crate::grade::Options;
 use crate::policy::{Manifest, Receipt, parse_received};
 use crate::rubric::Rubric;
-use crate::sandbox::Limits;
 use crate::workspace::Workspace;
 
 /// Grade a class: a folder of hand-ins as Moodle and ILIAS pack them, or one folder, archive or file for each student.
@@ -60,6 +60,8 @@ pub(super) struct Arguments {
     /// all checks are run have no points
     #[arg(long, value_name = "CHECK|SCENE|TASK", conflicts_with_all = ["moodle", "ilias"])]
     only: Vec<String>,
+    #[command(flatten)]
+    sandbox: LeastSandbox,
 }
 
 pub(super) fn run_class(arguments: &Arguments) -> Result<ExitCode> {
@@ -95,7 +97,7 @@ pub(super) fn run_class(arguments: &Arguments) -> Result<ExitCode> {
             seed: arguments.seed,
             threads: 1,
             only: arguments.only.clone(),
-            limits: Limits::default(),
+            limits: arguments.sandbox.of_others(),
         },
         jobs: arguments.jobs.map_or_else(rayon::current_num_threads, usize::from),
         out: out.clone(),

@@ -1,15 +1,18 @@
 //! `grader grade`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use arty::image::check_writable;
 
+use super::lateness::When;
+use super::least_sandbox::LeastSandbox;
 use super::{full_report, watch};
 use crate::error::{Error, Result};
-use crate::grade::{Options, grade};
+use crate::grade::{Grader, Options};
+use crate::intake::{self, Finding, HandIn, Refusal};
+use crate::marks::Marks;
 use crate::report::{print_check, print_summary};
-use crate::sandbox::Limits;
 use crate::submission::Submission;
 use crate::workspace::Workspace;
 
@@ -42,19 +45,25 @@ pub(super) struct Arguments {
     /// Grade again on every save, and show one short table; Ctrl-C ends it
     #[arg(long, conflicts_with = "fail_under")]
     watch: bool,
+    #[command(flatten)]
+    sandbox: LeastSandbox,
+    #[command(flatten)]
+    when: When,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let path = arguments.submission.clone().unwrap_or_else(|| workspace.student_file());
-    let submission = Submission::read(&relative(path))?;
+    let path = relative(path);
+    let received = arguments.when.read(&workspace, &arguments.assignment)?;
+    let HandIn { outcome, notes, checksums, explanations } = take(&workspace, &path)?;
     let threads = arguments.jobs.map_or_else(rayon::current_num_threads, usize::from);
     let options = Options {
         assignment: arguments.assignment.clone(),
         seed: arguments.seed,
         threads,
         only: arguments.only.clone(),
-        limits: Limits::default(),
+        limits: arguments.sandbox.of_one(),
     };
     let file = arguments.out.join("report.json");
     std::fs::create_dir_all(&arguments.out).map_err(|error| Error::file(&arguments.out, error))?;
@@ -66,11 +75,30 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         );
     }
     if arguments.watch {
-        watch::watch(&workspace, &submission.path, &options, &file)?;
+        watch::watch(&workspace, &path, &options, &file)?;
     }
-    let mut report = grade(&workspace, &submission, &options, print_check)?;
+    for note in &notes {
+        eprintln!("note: {note}");
+    }
+    let grader = Grader::new(&workspace, &options)?;
+    let (submission, mut report) = match outcome {
+        Ok(submission) => {
+            let report = grader.grade(&submission, print_check)?;
+            (submission, report)
+        }
+        Err(refusal) => {
+            let report = grader.refuse(&path, &refusal)?;
+            (Submission { path, source: String::new() }, report)
+        }
+    };
+    report.submission.notes = notes.iter().map(Finding::from).collect();
+    report.submission.explanations = explanations;
+    Marks::open(&arguments.out)?.apply(&mut report);
     report.save(&file)?;
     print_summary(&report);
+    if let Some(received) = &received {
+        println!("{}", received.describe(report.points.earned, &checksums));
+    }
     if !arguments.no_report && arguments.only.is_empty() {
         let completed = full_report::complete(&workspace, &submission, arguments.seed, &mut report, &file);
         if let Err(error) = completed {
@@ -81,6 +109,17 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     eprintln!("report: {}", file.display());
     let too_few = arguments.fail_under.is_some_and(|least| report.points.earned < least);
     Ok(ExitCode::from(u8::from(too_few)))
+}
+
+/// Takes in what was named. That nothing at all is there, or that it cannot be read, is the fault of whoever named it;
+/// any other refusal is that of the hand-in, which has no points then.
+fn take(workspace: &Workspace, path: &Path) -> Result<HandIn> {
+    let starter = std::fs::read_to_string(workspace.student_file()).unwrap_or_default();
+    let hand_in = intake::take(&[path.to_owned()], &starter)?;
+    match &hand_in.outcome {
+        Err(refusal @ (Refusal::MissingFile | Refusal::Unreadable(..))) => Err(Error::file(path, refusal)),
+        _ => Ok(hand_in),
+    }
 }
 
 fn points(text: &str) -> std::result::Result<f64, String> {

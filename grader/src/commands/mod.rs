@@ -7,6 +7,8 @@ mod doctor;
 mod figures;
 mod full_report;
 mod grade;
+mod lateness;
+mod least_sandbox;
 mod mark;
 mod mutants;
 mod pack;

@@ -8,11 +8,12 @@ use jiff::Timestamp;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
+use super::lateness::standing;
 use super::policy::policy;
 use crate::build::{Framework, compile};
 use crate::error::{Error, Result};
 use crate::intake::md5_of;
-use crate::policy::{Receipt, Standing};
+use crate::policy::Receipt;
 use crate::rubric::Rubric;
 use crate::sandbox::Limits;
 use crate::submission::{FILE_NAME, Submission};
@@ -81,24 +82,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     }
     let now = Receipt { received_at: Some(Timestamp::now()), ..Receipt::default() };
     let names = [arguments.student.as_str()];
-    if let Some((deadline, _)) = policy.as_ref().and_then(|policy| policy.deadline(&names))
-        && let Some(policy) = &policy
-    {
-        let lateness = policy.judge(&names, Some(&now), &[]);
-        let local = deadline.to_zoned(policy.zone().clone()).strftime("%F %T %Z");
-        println!(
-            "{}",
-            match lateness.standing {
-                Standing::InTime | Standing::Unknown => format!("in time: the deadline is {local}"),
-                Standing::Late => format!(
-                    "{} late (deadline {local}): points × {}",
-                    lateness.late_by_text(),
-                    lateness.factor
-                ),
-                Standing::NotAccepted =>
-                    format!("{} late (deadline {local}): no longer accepted", lateness.late_by_text()),
-            }
-        );
+    if let Some(standing) = policy.as_ref().and_then(|policy| standing(policy, &names, &now, &[])) {
+        println!("{standing}");
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -194,6 +194,13 @@ fn of_several_sources_only_different_ones_are_a_question() {
     let whole =
         take_folder(&[("arty/render_pt.rs", STARTER.as_bytes()), ("render_pt.rs", SOURCE.as_bytes())]);
     assert_eq!((source(&whole), notes(&whole)), (SOURCE, vec!["starter-too"]));
+    // The same, but for a name that a browser has made of it.
+    let renamed = take_folder(&[
+        ("arty/render_pt.rs", STARTER.as_bytes()),
+        ("arty/main.rs", b"use render_pt::PathTracer;"),
+        ("render_pt (2).rs", SOURCE.as_bytes()),
+    ]);
+    assert_eq!((source(&renamed), notes(&renamed)), (SOURCE, vec!["other-name", "starter-too"]));
 }
 
 #[test]

@@ -14,7 +14,7 @@ use crate::build::BuildFailure;
 use crate::checks::Weights;
 use crate::convergence::Convergence;
 use crate::error::{Error, Result};
-use crate::intake::Explanation;
+use crate::intake::{self, Explanation};
 use crate::rubric::CheckKind;
 use crate::sandbox::{Layers, Level, both, missing};
 use crate::scan::Finding;
@@ -68,11 +68,17 @@ pub struct SubmissionInfo {
     pub path: String,
     /// BLAKE3 of the source.
     pub hash: String,
-    /// Why it does not compile, if it does not.
+    /// Why it does not compile, if it does not. Where there was nothing to compile, this says so, too.
     pub build_failure: Option<BuildFailure>,
     /// Written explanations that came with it, for a person to mark.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub explanations: Vec<Explanation>,
+    /// Why there was nothing to compile, with its code.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub refusal: Option<intake::Finding>,
+    /// What was odd when it was taken in. It costs no points.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<intake::Finding>,
 }
 
 /// Sums of points.

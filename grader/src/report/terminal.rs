@@ -22,7 +22,10 @@ pub fn print_summary(report: &Report) {
 
 fn write_summary(out: &mut impl Write, report: &Report) -> io::Result<()> {
     if let Some(failure) = &report.submission.build_failure {
-        writeln!(out, "The hand-in does not compile:\n\n{}", failure.messages)?;
+        match &report.submission.refusal {
+            None => writeln!(out, "The hand-in does not compile:\n\n{}", failure.messages)?,
+            Some(refusal) => writeln!(out, "{}: {}", refusal.code, failure.messages.trim_end())?,
+        }
     }
     let mut table = Table::new();
     table.load_style(UTF8_HORIZONTAL_ONLY).set_content_arrangement(ContentArrangement::Dynamic).set_header([

@@ -4,7 +4,7 @@ use host::confine::Layers;
 use serde::{Deserialize, Serialize};
 
 /// How well a hand-in is confined. Later ones are better.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Level {
     /// A process of its own, and nothing more.

@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+use super::Level;
+
 /// What compiling and running a hand-in may take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
@@ -18,6 +20,8 @@ pub struct Limits {
     pub answer: u32,
     /// False only to measure what the sandbox costs: files and system calls are not locked away then.
     pub sandbox: bool,
+    /// The worst sandbox in which anything of a hand-in is compiled or run.
+    pub least: Level,
 }
 
 impl Default for Limits {
@@ -29,6 +33,7 @@ impl Default for Limits {
             job_memory: 4 << 30,
             answer: 256 << 20,
             sandbox: true,
+            least: Level::None,
         }
     }
 }

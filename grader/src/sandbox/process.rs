@@ -10,6 +10,10 @@ use crate::error::Result;
 
 /// What a process is for.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(
+    not(target_os = "linux"),
+    expect(dead_code, reason = "elsewhere there is no sandbox that needs them")
+)]
 pub(crate) enum Profile<'a> {
     /// rustc and the linker.
     Compiler {

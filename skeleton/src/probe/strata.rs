@@ -2,6 +2,8 @@
 
 use std::cell::Cell;
 
+use super::Key;
+
 /// The integrator's own numbers (not those that the framework draws) for one of many paths: the k-th number of all paths
 /// together has exactly one value in each of `count` equal strata, in an order that differs from k to k. So whatever
 /// share of the paths an integrator sends one way by comparing one number, that share is exact to 1 / `count`
@@ -22,7 +24,7 @@ thread_local! {
 }
 
 /// From now on this thread's own numbers are those of these strata; as ever, for `None`.
-pub fn set_strata(strata: Option<Strata>) {
+pub fn set_strata(_: &Key, strata: Option<Strata>) {
     STRATA.set(strata.map(|strata| (strata, 0)));
 }
 
@@ -83,9 +85,9 @@ mod tests {
             let number = strata.place(dimension, 1.0 - f32::EPSILON / 2.0);
             assert!((0.0..1.0).contains(&number), "{number}");
         }
-        set_strata(Some(strata));
+        set_strata(&Key(()), Some(strata));
         assert_ne!(place(0.5), 0.5);
-        set_strata(None);
+        set_strata(&Key(()), None);
         assert_eq!(place(0.5), 0.5);
     }
 }

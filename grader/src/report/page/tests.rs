@@ -20,6 +20,8 @@ fn report() -> Report {
             hash: text(),
             build_failure: Some(crate::build::BuildFailure { messages: text(), line: None }),
             explanations: Vec::new(),
+            refusal: None,
+            notes: Vec::new(),
         },
         assignment: text(),
         points: Points { earned: 12.5, automatic_max: 70.0, manual_max: 10.0, max: 80.0, marked: Some(7.0) },

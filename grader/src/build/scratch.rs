@@ -1,0 +1,91 @@
+//! Temporary folders of hand-ins, and those that interrupted graders have left behind.
+//!
+//! A grader that is killed removes nothing. So each folder holds a file that its grader keeps locked: a folder whose file
+//! can be locked is nobody's any more, whatever process numbers say, which differ from container to container.
+
+use std::fs::{File, OpenOptions};
+use std::io::Result;
+use std::path::Path;
+use std::sync::Once;
+use std::time::Duration;
+
+use tempfile::TempDir;
+
+/// How their names begin.
+const PREFIX: &str = "arty-hand-in-";
+
+/// The file that is locked while the folder is in use.
+const IN_USE: &str = "in-use";
+
+/// A folder without the file is being made, or was when its grader was killed: then it is this old.
+const SURELY_LEFT: Duration = Duration::from_secs(3600);
+
+/// A temporary folder, which is removed when this is dropped.
+#[derive(Debug)]
+pub(super) struct Scratch {
+    folder: TempDir,
+    _in_use: File,
+}
+
+impl Scratch {
+    /// Makes a folder. The first time, folders of graders that were interrupted are removed.
+    pub(super) fn new() -> Result<Self> {
+        static ONCE: Once = Once::new();
+        ONCE.call_once(|| remove_left_behind(&std::env::temp_dir()));
+        let folder = tempfile::Builder::new().prefix(PREFIX).tempdir()?;
+        let in_use = File::create(folder.path().join(IN_USE))?;
+        // A file system without locks leaves more behind, and works otherwise.
+        let _ = in_use.try_lock();
+        Ok(Self { folder, _in_use: in_use })
+    }
+
+    /// Its path.
+    pub(super) fn path(&self) -> &Path {
+        self.folder.path()
+    }
+}
+
+/// Removes what nobody uses any more. Folders of other users stay.
+fn remove_left_behind(parent: &Path) {
+    for entry in std::fs::read_dir(parent).into_iter().flatten().flatten() {
+        let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
+        if is_folder && entry.file_name().to_string_lossy().starts_with(PREFIX) && is_left(&entry.path()) {
+            let _ = std::fs::remove_dir_all(entry.path());
+        }
+    }
+}
+
+fn is_left(folder: &Path) -> bool {
+    let file = folder.join(IN_USE);
+    // A pipe of that name would not be opened before somebody writes to it.
+    if !std::fs::symlink_metadata(&file).is_ok_and(|metadata| metadata.is_file()) {
+        let made = std::fs::metadata(folder).and_then(|metadata| metadata.modified());
+        return made.is_ok_and(|time| time.elapsed().is_ok_and(|age| age > SURELY_LEFT));
+    }
+    OpenOptions::new().write(true).open(&file).is_ok_and(|file| file.try_lock().is_ok())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folders_of_the_dead_are_removed_and_those_of_the_living_are_not() {
+        let parent = tempfile::tempdir().expect("a temporary folder");
+        let make = |name: &str| {
+            let folder = parent.path().join(name);
+            std::fs::create_dir(&folder).expect("it can be made");
+            let file = File::create(folder.join(IN_USE)).expect("it can be written");
+            (folder, file)
+        };
+        let (living, lock) = make("arty-hand-in-1");
+        lock.lock().expect("nobody else has it");
+        let (dead, _) = make("arty-hand-in-2");
+        let (other, _) = make("something-else");
+        let begun = parent.path().join("arty-hand-in-3");
+        std::fs::create_dir(&begun).expect("it can be made");
+        remove_left_behind(parent.path());
+        let there = [&living, &dead, &other, &begun].map(|folder| folder.exists());
+        assert_eq!(there, [true, false, true, true]);
+    }
+}

@@ -1,0 +1,75 @@
+//! How late one hand-in is, in words.
+
+use std::path::PathBuf;
+
+use super::policy::policy;
+use crate::error::{Error, Result};
+use crate::policy::{Policy, Receipt, Standing, parse_received};
+use crate::rubric::Rubric;
+use crate::workspace::Workspace;
+
+/// The options that say when a hand-in came.
+#[derive(clap::Args)]
+pub(super) struct When {
+    /// When it came, for what being late costs; file times are never used
+    #[arg(long, value_name = "TIME")]
+    received_at: Option<String>,
+    /// Deadline and extensions [default: course.yml beside the rubric, if there is one]
+    #[arg(long, value_name = "FILE.yml", requires = "received_at")]
+    course: Option<PathBuf>,
+    /// The student's login, for an extension
+    #[arg(long, requires = "received_at", default_value = "")]
+    student: String,
+}
+
+/// When one hand-in came, and the rules for it.
+pub(super) struct Received {
+    policy: Policy,
+    receipt: Receipt,
+    student: String,
+}
+
+impl When {
+    /// Reads rules and time; `None` if nobody asks.
+    pub(super) fn read(&self, workspace: &Workspace, assignment: &str) -> Result<Option<Received>> {
+        let Some(text) = &self.received_at else { return Ok(None) };
+        let rubric = Rubric::load(&workspace.assignment(assignment).join("rubric.yml"))?;
+        let policy = policy(workspace, assignment, &rubric, self.course.as_deref())?;
+        let policy =
+            policy.ok_or_else(|| Error::Input("the rubric has no `policy` for late hand-ins".into()))?;
+        let time = parse_received(text, policy.zone())
+            .map_err(|error| Error::Input(format!("--received-at: {error}")))?;
+        let receipt = Receipt { received_at: Some(time), ..Receipt::default() };
+        Ok(Some(Received { policy, receipt, student: self.student.clone() }))
+    }
+}
+
+impl Received {
+    /// What counts of the raw points, in a line.
+    pub(super) fn describe(&self, raw: f64, checksums: &[String]) -> String {
+        let names = [self.student.as_str()];
+        let lateness = self.policy.judge(&names, Some(&self.receipt), checksums);
+        let points = self.policy.points(raw, &lateness);
+        let standing = standing(&self.policy, &names, &self.receipt, checksums)
+            .unwrap_or_else(|| "in time: there is no deadline".to_owned());
+        format!("{standing}; {points} of {raw} points count")
+    }
+}
+
+/// How a hand-in that came then stands to its deadline; `None` if there is none.
+pub(super) fn standing(
+    policy: &Policy,
+    names: &[&str],
+    receipt: &Receipt,
+    checksums: &[String],
+) -> Option<String> {
+    let (deadline, _) = policy.deadline(names)?;
+    let lateness = policy.judge(names, Some(receipt), checksums);
+    let local = deadline.to_zoned(policy.zone().clone()).strftime("%F %T %Z");
+    let late = lateness.late_by_text();
+    Some(match lateness.standing {
+        Standing::InTime | Standing::Unknown => format!("in time: the deadline is {local}"),
+        Standing::Late => format!("{late} late (deadline {local}): points × {}", lateness.factor),
+        Standing::NotAccepted => format!("{late} late (deadline {local}): no longer accepted"),
+    })
+}
