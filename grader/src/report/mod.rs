@@ -2,6 +2,7 @@
 
 mod page;
 mod pictures;
+mod progress;
 mod terminal;
 
 use std::collections::BTreeMap;
@@ -13,14 +14,15 @@ use serde::{Deserialize, Serialize};
 use crate::build::BuildFailure;
 use crate::checks::Weights;
 use crate::convergence::Convergence;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::rubric::CheckKind;
 use crate::sandbox::{Layers, Level, both, missing};
 use crate::scan::Finding;
 
 pub use page::page;
 pub use pictures::{Picture, pictures};
-pub use terminal::{print_check, print_summary};
+pub use progress::Progress;
+pub use terminal::{print_sum, print_summary};
 
 /// The version of the format.
 pub const SCHEMA: &str = "arty-report/1";
@@ -79,6 +81,9 @@ pub struct Points {
     pub manual_max: f64,
     /// Both together.
     pub max: f64,
+    /// Of `automatic_max`, what rests on checks that are left out here because they need the solution.
+    #[serde(default)]
+    pub elsewhere: f64,
 }
 
 /// The points of one task.
@@ -92,6 +97,9 @@ pub struct TaskResult {
     pub points: Option<f64>,
     /// Points for all of it.
     pub max: f64,
+    /// Of these, what rests on checks that are left out here because they need the solution.
+    #[serde(default)]
+    pub elsewhere: f64,
     /// The checks that decide.
     pub checks: Vec<String>,
     /// Why points are missing.
@@ -283,6 +291,21 @@ impl Sandbox {
 }
 
 impl Report {
+    /// Reads what [`Self::save`] has written.
+    ///
+    /// # Errors
+    /// If it is no report of this version.
+    pub fn load(path: &Path) -> Result<Self> {
+        let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
+        let report: Self = serde_json::from_slice(&bytes)
+            .map_err(|error| Error::file(path, format!("is no report of the grader: {error}")))?;
+        if report.schema == SCHEMA {
+            Ok(report)
+        } else {
+            Err(Error::file(path, format!("is a report of another version, not {SCHEMA}")))
+        }
+    }
+
     /// Writes the report as JSON.
     pub fn save(&self, path: &Path) -> Result<()> {
         Ok(arty::image::write_aside(path, |writer| serde_json::to_writer_pretty(writer, self))?)
