@@ -108,6 +108,11 @@ impl Grader {
         &self.rubric
     }
 
+    /// How many checks a grade runs at most.
+    pub fn planned(&self) -> usize {
+        select(&self.rubric, &self.options.only).map_or(0, |selected| selected.len())
+    }
+
     /// What all grades rest on.
     pub fn provenance(&self) -> &BTreeMap<String, String> {
         &self.provenance
@@ -201,6 +206,7 @@ impl Grader {
             manual_max: total(true),
             max: total(false) + total(true),
             marked: None,
+            elsewhere: tasks.iter().map(|task| task.elsewhere).sum(),
         };
         let numerics = Numerics {
             non_finite: checks.iter().map(|check| check.non_finite).sum(),
@@ -321,6 +327,7 @@ fn mark(
         title: task.title.clone(),
         points: None,
         max: task.points,
+        elsewhere: 0.0,
         checks: ids,
         reason: String::new(),
     };
@@ -339,12 +346,17 @@ fn mark(
         result.reason = "not all of its checks were run".to_owned();
         return result;
     }
-    let (mut earned, mut total) = (0.0, 0.0);
+    let (mut earned, mut total, mut elsewhere) = (0.0, 0.0, 0.0);
     let mut missing_evidence = None;
     let mut missing = Vec::new();
     for spec in &task.checks {
         let id = spec.id();
         if left_out.iter().any(|left_out| left_out.check == id) {
+            // A check that means nothing here is worth nothing; one that only staff can run keeps its worth.
+            if plan::needs_solution(spec) {
+                total += spec.weight;
+                elsewhere += spec.weight;
+            }
             continue;
         }
         total += spec.weight;
@@ -361,8 +373,14 @@ fn mark(
         }
     }
     // Half points are the finest that a tutor would give.
-    let share = if total > 0.0 { earned / total } else { 0.0 };
-    result.points = Some((task.points * share * 2.0).round() / 2.0);
+    let points_of = |weight: f64| {
+        let share = if total > 0.0 { weight / total } else { 0.0 };
+        (task.points * share * 2.0).round() / 2.0
+    };
+    result.points = Some(points_of(earned));
+    if elsewhere > 0.0 {
+        result.elsewhere = task.points - points_of(total - elsewhere);
+    }
     if let Some(id) = missing_evidence {
         result.points = Some(0.0);
         result.reason = format!("no points without {id}");

@@ -4,6 +4,7 @@
 //! [`host_process`] runs that program in a [`sandbox`], [`checks`] ask it for numbers and judge them with [`statistics`] against [`mod@reference`]s or closed
 //! forms, [`mod@grade`] turns verdicts into points by the [`rubric`], [`report`] says what was found. [`mutants`] holds all of it to
 //! hand-ins whose mistakes are known; [`convergence`] measures error against run time, for no points.
+//! [`export`] writes reports the way other systems want them; [`handout`] makes what students get.
 
 pub mod build;
 pub mod calibration;
@@ -12,7 +13,9 @@ pub mod class;
 pub mod commands;
 pub mod convergence;
 pub mod error;
+pub mod export;
 pub mod grade;
+pub mod handout;
 pub mod host_process;
 pub mod image_error;
 pub mod intake;

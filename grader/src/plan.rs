@@ -43,9 +43,14 @@ pub fn for_scene(judged: &JudgedScene) -> Vec<Entry> {
 pub fn why_left_out(spec: &CheckSpec, judged: Option<&JudgedScene>, has_solution: bool) -> Option<String> {
     match judged {
         Some(judged) => why_not(spec, judged),
-        None => (spec.check == CheckKind::HiddenVariants && !has_solution)
+        None => (needs_solution(spec) && !has_solution)
             .then(|| "there is no solution here to compare with".to_owned()),
     }
+}
+
+/// True of a check that only staff can run. Where it is left out for that, its points are left out, too.
+pub fn needs_solution(spec: &CheckSpec) -> bool {
+    spec.check == CheckKind::HiddenVariants
 }
 
 /// What is left out in all scenes of a grade, and why.

@@ -7,12 +7,13 @@ use arty::image::check_writable;
 
 use super::lateness::When;
 use super::least_sandbox::LeastSandbox;
-use super::{full_report, watch};
+use super::{export, full_report, watch};
 use crate::error::{Error, Result};
+use crate::export::Export;
 use crate::grade::{Grader, Options};
 use crate::intake::{self, Finding, HandIn, Refusal};
 use crate::marks::Marks;
-use crate::report::{print_check, print_summary};
+use crate::report::{Progress, print_sum, print_summary};
 use crate::submission::Submission;
 use crate::workspace::Workspace;
 
@@ -42,6 +43,13 @@ pub(super) struct Arguments {
     /// Give the points only: leave out what follows them, error against run time and report.html (also left out with --only)
     #[arg(long)]
     no_report: bool,
+    /// Write the report in another format, too: markdown, junit, github, gradescope, classroom50, autolab; a file may
+    /// follow (`-` is standard output); may be given several times
+    #[arg(long, value_name = "FORMAT[:FILE]", conflicts_with = "watch")]
+    export: Vec<Export>,
+    /// Print nothing but the sum of points; files are written all the same
+    #[arg(long, short, conflicts_with = "watch")]
+    quiet: bool,
     /// Grade again on every save, and show one short table; Ctrl-C ends it
     #[arg(long, conflicts_with = "fail_under")]
     watch: bool,
@@ -69,21 +77,26 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     std::fs::create_dir_all(&arguments.out).map_err(|error| Error::file(&arguments.out, error))?;
     check_writable(&file)?;
     full_report::remove_page(&file)?;
+    for export in &arguments.export {
+        export.target(&arguments.out).map_or(Ok(()), |file| check_writable(&file))?;
+    }
+    let mut progress = if arguments.quiet { Progress::hidden() } else { Progress::new() };
     if !workspace.framework_target().exists() {
-        eprintln!(
-            "building the framework that hand-ins are linked against; this is done once, and takes a minute …"
-        );
+        progress
+            .say("building the framework that hand-ins are linked against: once, and it takes a minute …");
     }
     if arguments.watch {
         watch::watch(&workspace, &path, &options, &file)?;
     }
     for note in &notes {
-        eprintln!("note: {note}");
+        progress.say(&format!("note: {note}"));
     }
+    progress.begin("making the framework ready");
     let grader = Grader::new(&workspace, &options)?;
+    progress.expect(grader.planned());
     let (submission, mut report) = match outcome {
         Ok(submission) => {
-            let report = grader.grade(&submission, print_check)?;
+            let report = grader.grade(&submission, |check| progress.ended(check))?;
             (submission, report)
         }
         Err(refusal) => {
@@ -91,14 +104,20 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
             (Submission { path, source: String::new() }, report)
         }
     };
+    progress.finish();
     report.submission.notes = notes.iter().map(Finding::from).collect();
     report.submission.explanations = explanations;
     Marks::open(&arguments.out)?.apply(&mut report);
     report.save(&file)?;
-    print_summary(&report);
+    if arguments.quiet {
+        print_sum(&report);
+    } else {
+        print_summary(&report);
+    }
     if let Some(received) = &received {
         println!("{}", received.describe(report.points.earned, &checksums));
     }
+    export::after_grade(&report, &arguments.export, &arguments.out)?;
     if !arguments.no_report && arguments.only.is_empty() {
         let completed = full_report::complete(&workspace, &submission, arguments.seed, &mut report, &file);
         if let Err(error) = completed {
@@ -106,7 +125,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
             eprintln!("warning: the report is not complete: {error}");
         }
     }
-    eprintln!("report: {}", file.display());
+    if !arguments.quiet {
+        eprintln!("report: {}", file.display());
+    }
     let too_few = arguments.fail_under.is_some_and(|least| report.points.earned < least);
     Ok(ExitCode::from(u8::from(too_few)))
 }

@@ -2,11 +2,15 @@
 
 mod calibrate;
 mod class;
+mod completions;
 mod converge;
 mod doctor;
+mod export;
 mod figures;
 mod full_report;
 mod grade;
+mod gradescope;
+mod handout;
 mod lateness;
 mod least_sandbox;
 mod mark;
@@ -46,6 +50,14 @@ enum Command {
     Pack(pack::Arguments),
     /// Measure the error of hand-ins against run time, beside the solution: CSV, JSON, SVG.
     Converge(converge::Arguments),
+    /// Write a report in the format of another system: Markdown, JUnit, GitHub, Gradescope, Classroom 50, Autolab.
+    Export(export::Arguments),
+    /// Pack the grader for Gradescope: a zip with setup.sh and run_autograder (for staff).
+    Gradescope(gradescope::Arguments),
+    /// Print the completions of a shell: bash, elvish, fish, powershell or zsh.
+    Completions(completions::Arguments),
+    /// Make the folder that students get, without the solution (for staff).
+    Handout(handout::Arguments),
     /// Render the figures of the sheet with the solution (for staff).
     Figures(figures::Arguments),
     /// Record the points that a person gives for a task.
@@ -72,6 +84,10 @@ pub fn run() -> ExitCode {
         Command::Class(arguments) => class::run_class(&arguments),
         Command::Pack(arguments) => pack::run(&arguments),
         Command::Converge(arguments) => converge::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
+        Command::Gradescope(arguments) => gradescope::run(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments),
+        Command::Handout(arguments) => handout::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Mark(arguments) => mark::run(&arguments),
         Command::Mutants(arguments) => mutants::run(&arguments),

@@ -100,15 +100,17 @@ fn found_by_hit(
     throughput: f64,
 ) -> Option<Light> {
     let radiance = f64::from(*step.got("radiance")?.get(1)?);
-    let (density, other_density, weight) = match (technique, last) {
-        (Technique::Bsdf, Some((_, density))) => (Some(density), None, 1.0),
-        (_, None) => (None, None, 1.0),
-        (Technique::Nee, Some((_, density))) => (Some(density), None, 0.0),
-        (Technique::Mis, Some((from, density))) => {
-            let other =
-                step.number("pdf_area")? * squared_distance(from, here) / step.number("cos")? / lights;
-            (Some(density), Some(other), density / (density + other))
+    let density = last.map(|(_, density)| density);
+    let other_density = match last.filter(|_| technique == Technique::Mis) {
+        Some((from, _)) => {
+            Some(step.number("pdf_area")? * squared_distance(from, here) / step.number("cos")? / lights)
         }
+        None => None,
+    };
+    let weight = match (density, other_density) {
+        (Some(density), Some(other)) => density / (density + other),
+        (Some(_), None) if technique == Technique::Nee => 0.0,
+        _ => 1.0,
     };
     Some(Light { density, other_density, weight, contribution: throughput * radiance * weight })
 }

@@ -2,6 +2,7 @@
 
 mod page;
 mod pictures;
+mod progress;
 mod terminal;
 
 use std::collections::BTreeMap;
@@ -21,7 +22,8 @@ use crate::scan::Finding;
 
 pub use page::page;
 pub use pictures::{ImageError, Picture, pictures};
-pub use terminal::{print_check, print_summary};
+pub use progress::Progress;
+pub use terminal::{print_sum, print_summary};
 
 /// The version of the format.
 pub const SCHEMA: &str = "arty-report/1";
@@ -95,6 +97,9 @@ pub struct Points {
     /// Given by a person so far; none if nobody has marked anything.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marked: Option<f64>,
+    /// Of `automatic_max`, what rests on checks that are left out here because they need the solution.
+    #[serde(default)]
+    pub elsewhere: f64,
 }
 
 /// The points of one task.
@@ -108,6 +113,9 @@ pub struct TaskResult {
     pub points: Option<f64>,
     /// Points for all of it.
     pub max: f64,
+    /// Of these, what rests on checks that are left out here because they need the solution.
+    #[serde(default)]
+    pub elsewhere: f64,
     /// The checks that decide.
     pub checks: Vec<String>,
     /// Why points are missing.
@@ -299,13 +307,19 @@ impl Sandbox {
 }
 
 impl Report {
-    /// Reads a report that was saved.
+    /// Reads what [`Self::save`] has written.
     ///
     /// # Errors
-    /// If the file cannot be read, or is none.
+    /// If it is no report of this version.
     pub fn load(path: &Path) -> Result<Self> {
-        let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
-        serde_json::from_str(&text).map_err(|error| Error::file(path, error))
+        let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
+        let report: Self = serde_json::from_slice(&bytes)
+            .map_err(|error| Error::file(path, format!("is no report of the grader: {error}")))?;
+        if report.schema == SCHEMA {
+            Ok(report)
+        } else {
+            Err(Error::file(path, format!("is a report of another version, not {SCHEMA}")))
+        }
     }
 
     /// Writes the report as JSON.

@@ -1,0 +1,64 @@
+//! `grader export`: a report in the format of another system, and what a grade exports by itself.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use crate::error::{Error, Result};
+use crate::export::{Export, Format, Received, Surroundings, annotations, summary};
+use crate::report::Report;
+
+/// Write a report in the format of another system: Markdown, JUnit, GitHub, Gradescope, Classroom 50, Autolab.
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// The report.json of a grade
+    report: PathBuf,
+    /// The format
+    #[arg(long)]
+    format: Format,
+    /// The file to write; standard output without it
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Gradescope's submission_metadata.json, to say how late a hand-in is
+    #[arg(long, value_name = "FILE")]
+    metadata: Option<PathBuf>,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
+    let report = Report::load(&arguments.report)?;
+    let mut surroundings = Surroundings::here(&report);
+    surroundings.received = arguments.metadata.as_deref().map(Received::load).transpose()?;
+    let file = arguments.out.clone().unwrap_or_else(|| PathBuf::from("-"));
+    Export { format: arguments.format, file: Some(file) }.write(&report, &surroundings, Path::new("."))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Writes what was asked for with `--export`, and what GitHub's machines show if it is there.
+///
+/// # Errors
+/// If a file cannot be written.
+pub(super) fn after_grade(report: &Report, exports: &[Export], folder: &Path) -> Result<()> {
+    let surroundings = Surroundings::here(report);
+    let variable = |name: &str| surroundings.environment.get(name).filter(|value| !value.is_empty());
+    if let Some(file) = variable("GITHUB_STEP_SUMMARY") {
+        // Other steps' summaries may stand there already.
+        let path = Path::new(file);
+        std::fs::OpenOptions::new()
+            .create(true)
+            .append(true)
+            .open(path)
+            .and_then(|mut file| file.write_all(summary(report).as_bytes()))
+            .map_err(|error| Error::file(path, error))?;
+        eprintln!("GITHUB_STEP_SUMMARY is set: a summary was added to it");
+    }
+    let asked_for = exports.iter().any(|export| export.format == Format::Github);
+    if variable("GITHUB_ACTIONS").is_some_and(|value| value == "true") && !asked_for {
+        // Nobody may be reading any more.
+        let _ = std::io::stdout().lock().write_all(annotations(report, &surroundings).as_bytes());
+        eprintln!("GITHUB_ACTIONS is set: annotations were printed");
+    }
+    // What goes to standard output comes last: Autolab reads the last line.
+    let mut in_order: Vec<&Export> = exports.iter().collect();
+    in_order.sort_by_key(|export| export.target(folder).is_none());
+    in_order.into_iter().try_for_each(|export| export.write(report, &surroundings, folder))
+}

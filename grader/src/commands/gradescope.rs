@@ -1,0 +1,26 @@
+//! `grader gradescope`.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use crate::error::Result;
+use crate::handout;
+use crate::workspace::Workspace;
+
+/// Pack the grader for Gradescope: a zip with setup.sh and run_autograder (for staff: the solution is in it).
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// The archive to write
+    #[arg(long, value_name = "FILE.zip", default_value = "autograder.zip")]
+    out: PathBuf,
+    /// The assignment: a folder below assignments/
+    #[arg(long, default_value = "05-nee-mis")]
+    assignment: String,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
+    let workspace = Workspace::find()?;
+    let bytes = handout::autograder(&workspace, &arguments.assignment, &arguments.out)?;
+    println!("{}: {:.1} MB, with the solution: for staff only", arguments.out.display(), bytes as f64 / 1e6);
+    Ok(ExitCode::SUCCESS)
+}
