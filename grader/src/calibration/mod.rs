@@ -59,6 +59,6 @@ impl Trial<'_> {
                 Err(never) => match never {},
             }
         };
-        (0..count).into_par_iter().map(one).reduce(Counts::default, Counts::add)
+        (0..count).into_par_iter().map(one).reduce(Counts::default, std::ops::Add::add)
     }
 }

@@ -27,10 +27,12 @@ impl Counts {
         let is = |other| u64::from(decision == other);
         Self { grades: 1, biased: is(Decision::Biased), unclear: is(Decision::Unclear), samples }
     }
+}
 
-    /// The sum of both.
-    #[must_use]
-    pub fn add(self, other: Self) -> Self {
+impl std::ops::Add for Counts {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
         Self {
             grades: self.grades + other.grades,
             biased: self.biased + other.biased,

@@ -24,7 +24,7 @@ fn false_alarms(text: &mut String, lines: &[&Line], checks: &[String]) {
             .iter()
             .filter(|line| line.bias == 0.0 && select(line))
             .map(|line| line.counts)
-            .fold(Counts::default(), Counts::add)
+            .fold(Counts::default(), std::ops::Add::add)
     };
     let mut variants: Vec<&str> = lines.iter().map(|line| line.variant.as_str()).collect();
     variants.sort_unstable();

@@ -4,8 +4,11 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::batches::Batches;
 
-/// A way of summing pixels.
-const GROUPS: [(&str, fn(u32, u32) -> (u32, u32)); 4] = [
+/// Gives the group of a pixel at (x, y).
+type GroupOf = fn(u32, u32) -> (u32, u32);
+
+/// Ways of summing pixels.
+const GROUPS: [(&str, GroupOf); 4] = [
     ("the whole image", |_, _| (0, 0)),
     ("rows", |_, y| (0, y)),
     ("columns", |x, _| (x, 0)),
