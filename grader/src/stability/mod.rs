@@ -2,7 +2,7 @@
 //! very bright.
 //!
 //! [`answers`] reads the table of `scenes/extreme/`, which says what each scene must show, [`measure`] renders a scene
-//! and compares. [`sweeps`] take one number through many decades until the renderer breaks, and [`write`] makes tables
+//! and compares. [`sweeps`] take one number through many decades until the renderer breaks, and [`mod@write`] makes tables
 //! and plots of that. All of this is about any program; `grader stability --framework` asks the solution, the check
 //! `stability` a hand-in.
 
