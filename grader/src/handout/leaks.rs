@@ -18,7 +18,7 @@ const PHRASES: [&str; 7] = [
     "; let (wi, distance) = direction(hit.point,",
     "Option<(Vec3, f32)>",
     "scene.lights().len() as f32",
-    "; let f = bsdf.eval(wi)",
+    "); let f = bsdf.eval(wi)",
 ];
 
 /// The runs of tokens that stand in the solution's task blocks, and only there.

@@ -107,10 +107,10 @@ fn found_by_hit(
         }
         None => None,
     };
-    let weight = match (density, other_density) {
-        (Some(density), Some(other)) => density / (density + other),
-        (Some(_), None) if technique == Technique::Nee => 0.0,
-        _ => 1.0,
+    let weight = match other_density {
+        Some(other) => density.map_or(1.0, |density| density / (density + other)),
+        None if technique == Technique::Nee && density.is_some() => 0.0,
+        None => 1.0,
     };
     Some(Light { density, other_density, weight, contribution: throughput * radiance * weight })
 }

@@ -1,0 +1,223 @@
+//! Reports in other systems' formats, and the scripts of these systems, run as they run them.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_yaml::Value;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().expect("the checkout is there")
+}
+
+fn grader(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));
+    command
+        .args(arguments)
+        .current_dir(folder)
+        .env_remove("GITHUB_ACTIONS")
+        .env_remove("GITHUB_STEP_SUMMARY");
+    command.output().expect("the program starts")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+fn read(path: &Path) -> String {
+    std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+fn student_file() -> String {
+    root().join("skeleton/src/algorithms/render_pt.rs").display().to_string()
+}
+
+/// A part of a YAML file.
+fn at<'a>(value: &'a Value, path: &[&str]) -> &'a Value {
+    path.iter().fold(value, |value, key| &value[*key])
+}
+
+/// Runs a script of a CI system in an empty folder, where `cargo grade` is the grader under test.
+fn run_script(folder: &Path, script: &str, environment: &[(&str, String)]) -> Output {
+    let tools = folder.join("tools");
+    std::fs::create_dir(&tools).expect("it can be made");
+    let cargo = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
+    let shim = format!(
+        "#!/bin/sh\ncase $1 in\n  grade) exec '{}' \"$@\" ;;\n  grader) shift; exec '{0}' \"$@\" ;;\n  *) exec '{cargo}' \"$@\" ;;\nesac\n",
+        env!("CARGO_BIN_EXE_grader")
+    );
+    std::fs::write(tools.join("cargo"), shim).expect("it can be written");
+    let made = Command::new("chmod").arg("+x").arg(tools.join("cargo")).status().expect("chmod is there");
+    assert!(made.success());
+    let path = std::env::var("PATH").expect("there is a search path");
+    let mut shell = Command::new("bash");
+    shell
+        .args(["--noprofile", "--norc", "-e", "-o", "pipefail", "-c", script])
+        .current_dir(folder)
+        .env("PATH", format!("{}:{path}", tools.display()))
+        .env("CARGO", cargo)
+        .env_remove("GITHUB_ACTIONS")
+        .env_remove("GITHUB_STEP_SUMMARY")
+        .envs(environment.iter().map(|(name, value)| (name, value.as_str())));
+    shell.output().expect("bash starts")
+}
+
+#[test]
+#[cfg(unix)]
+fn the_script_for_github_writes_summary_annotations_and_what_is_kept() {
+    let file = root().join("assignments/05-nee-mis/ci/github.yml");
+    let workflow: Value = serde_yaml::from_str(&read(&file)).expect("it is YAML");
+    let steps = at(&workflow, &["jobs", "grade", "steps"]).as_sequence().expect("there are steps");
+    let script = steps.iter().find_map(|step| step["run"].as_str()).expect("one runs a script");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let summary = folder.path().join("summary.md");
+    std::fs::write(&summary, "earlier\n").expect("it can be written");
+    let environment = [
+        ("GITHUB_ACTIONS", "true".to_owned()),
+        ("GITHUB_STEP_SUMMARY", summary.display().to_string()),
+        ("GITHUB_WORKSPACE", root().display().to_string()),
+    ];
+    let output = run_script(folder.path(), script, &environment);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let summary = read(&summary);
+    assert!(summary.starts_with("earlier\n## 05-nee-mis: 0 of 70 points"), "{summary}");
+    let stdout = text(&output.stdout);
+    let errors: Vec<&str> = stdout.lines().filter(|line| line.starts_with("::error ")).collect();
+    assert!((1..=10).contains(&errors.len()), "{stdout}");
+    let mark = read(Path::new(&student_file())).lines().position(|line| line.contains("// TASK 5.1a"));
+    let line = mark.expect("the task has a mark") + 1;
+    let place = format!("::error file=skeleton/src/algorithms/render_pt.rs,line={line},title=5.1a fail%3A ");
+    assert!(errors[0].starts_with(&place), "{}", errors[0]);
+    // What the steps after it take.
+    let kept =
+        steps.iter().find_map(|step| at(step, &["with", "path"]).as_str().filter(|path| *path == "report/"));
+    assert!(kept.is_some());
+    for name in ["report.json", "report.html", "junit.xml"] {
+        assert!(folder.path().join("report").join(name).is_file(), "{name}");
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn the_script_for_gitlab_leaves_the_report_where_gitlab_takes_it() {
+    let file = root().join("assignments/05-nee-mis/ci/gitlab.yml");
+    let pipeline: Value = serde_yaml::from_str(&read(&file)).expect("it is YAML");
+    let job = &pipeline["grade"];
+    let script: Vec<&str> =
+        job["script"].as_sequence().expect("a list").iter().filter_map(Value::as_str).collect();
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let output = run_script(folder.path(), &script.join("\n"), &[]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(!text(&output.stdout).contains("::error"), "that is GitHub's");
+    let junit = at(job, &["artifacts", "reports", "junit"]).as_str().expect("a file is named");
+    let xml = read(&folder.path().join(junit));
+    let report = quick_junit::Report::deserialize_from_str(&xml).expect("it is JUnit's XML");
+    assert!(report.failures > 10, "{xml}");
+    // GitLab drops all but one of those that have the same name.
+    let mut names: Vec<_> = report
+        .test_suites
+        .iter()
+        .flat_map(|suite| suite.test_cases.iter().map(|case| (&suite.name, &case.classname, &case.name)))
+        .map(|name| format!("{name:?}"))
+        .collect();
+    let all = names.len();
+    names.sort();
+    names.dedup();
+    assert_eq!((names.len(), report.tests), (all, all));
+}
+
+#[test]
+fn formats_go_where_they_are_asked_for_and_wrong_ones_end_with_2() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = student_file();
+    let only = "--only=closed-form/point_plane/mis/1";
+    let graded = grader(
+        folder.path(),
+        &["grade", &file, only, "--quiet", "--export=markdown", "--export=junit:x.xml", "--export=autolab"],
+    );
+    assert_eq!(graded.status.code(), Some(0), "{}", text(&graded.stderr));
+    assert!(read(&folder.path().join("report/summary.md")).starts_with("## 05-nee-mis"));
+    assert!(read(&folder.path().join("x.xml")).starts_with("<?xml"));
+    let stdout = text(&graded.stdout);
+    assert_eq!(stdout.lines().count(), 2, "quiet: the sum and what was asked for: {stdout}");
+    assert!(stdout.lines().last().is_some_and(|line| line.starts_with("{\"scores\":")), "{stdout}");
+
+    for format in ["markdown", "junit", "github", "gradescope", "classroom50", "autolab"] {
+        let exported = grader(folder.path(), &["export", "report/report.json", "--format", format]);
+        assert_eq!(exported.status.code(), Some(0), "{format}: {}", text(&exported.stderr));
+        assert!(!exported.stdout.is_empty(), "{format}");
+    }
+    let broken = folder.path().join("broken.json");
+    std::fs::write(&broken, "{}").expect("it can be written");
+    let broken = broken.display().to_string();
+    for arguments in [
+        vec!["grade", &file, only, "--export=word"],
+        vec!["grade", &file, only, "--export=junit:no/such/folder/x.xml"],
+        vec!["export", &broken, "--format=junit"],
+        vec!["export", "nowhere.json", "--format=junit"],
+    ] {
+        let output = grader(folder.path(), &arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", text(&output.stderr));
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn gradescope_s_script_gives_results_also_where_there_is_nothing_to_grade() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let submission = folder.path().join("submission");
+    std::fs::create_dir(&submission).expect("it can be made");
+    let script = root().join("grader/src/handout/gradescope/run_autograder");
+    let run = || {
+        let mut bash = Command::new("bash");
+        bash.arg(&script)
+            .env("AUTOGRADER_ROOT", folder.path())
+            .env("GRADER", env!("CARGO_BIN_EXE_grader"))
+            .env_remove("GITHUB_ACTIONS")
+            .env_remove("GITHUB_STEP_SUMMARY");
+        let output = bash.output().expect("bash starts");
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let results = read(&folder.path().join("results/results.json"));
+        serde_json::from_str::<serde_json::Value>(&results)
+            .unwrap_or_else(|error| panic!("{error}: {results}"))
+    };
+    std::fs::create_dir(submission.join("a\"\\b\n")).expect("it can be made");
+    let nothing = run();
+    assert_eq!(nothing["score"], 0);
+    assert!(nothing["output"].as_str().is_some_and(|why| why.contains("render_pt.rs")), "{nothing}");
+
+    std::fs::write(submission.join("render_pt.rs"), "fn broken() {").expect("it can be written");
+    let metadata =
+        r#"{"created_at": "2026-11-20T11:20:00Z", "assignment": {"due_date": "2026-11-20T10:00:00Z"}}"#;
+    std::fs::write(folder.path().join("submission_metadata.json"), metadata).expect("it can be written");
+    let broken = run();
+    assert_eq!(broken["score"], 0.0);
+    let output = broken["output"].as_str().expect("a text");
+    assert!(output.contains("does not compile") && output.contains("It came 1:20 h after"), "{output}");
+}
+
+#[test]
+fn the_autograder_is_a_zip_that_gradescope_takes() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let made = grader(folder.path(), &["gradescope"]);
+    assert_eq!(made.status.code(), Some(0), "{}", text(&made.stderr));
+    let file = std::fs::File::open(folder.path().join("autograder.zip")).expect("it is there");
+    let mut archive = zip::ZipArchive::new(file).expect("it is a zip");
+    for name in ["setup.sh", "run_autograder"] {
+        let entry = archive.by_name(name).expect("it is at the top");
+        assert_eq!(entry.unix_mode().map(|mode| mode & 0o777), Some(0o755), "{name}");
+    }
+    let needed =
+        ["Cargo.lock", ".cargo/config.toml", "solution/src/algorithms/render_pt.rs", "grader/src/main.rs"];
+    for name in needed {
+        assert!(archive.by_name(name).is_ok(), "{name}");
+    }
+}
+
+#[test]
+fn shells_get_completions() {
+    for (shell, sign) in [("bash", "complete -F"), ("zsh", "#compdef grader"), ("fish", "complete -c grader")]
+    {
+        let output = grader(&root(), &["completions", shell]);
+        assert!(text(&output.stdout).contains(sign), "{shell}");
+    }
+}
