@@ -55,6 +55,11 @@ impl Marks {
         self.list.iter().find(|mark| mark.submission == submission && mark.task == task)
     }
 
+    /// All marks of a hand-in.
+    pub fn of<'a>(&'a self, submission: &'a str) -> impl Iterator<Item = &'a Mark> {
+        self.list.iter().filter(move |mark| !submission.is_empty() && mark.submission == submission)
+    }
+
     /// Adds a mark, in place of an earlier one for the same, and saves all.
     ///
     /// # Errors
@@ -73,7 +78,7 @@ impl Marks {
                 task.reason.clone_from(&mark.comment);
             }
         }
-        let marked = self.list.iter().filter(|mark| mark.submission == report.submission.hash);
+        let marked = self.of(&report.submission.hash);
         let (sum, count) = marked.fold((0.0, 0), |(sum, count), mark| (sum + mark.points, count + 1));
         report.points.marked = (count > 0).then_some(sum);
     }

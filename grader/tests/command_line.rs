@@ -169,3 +169,36 @@ fn which(tool: &str) -> String {
     let found = std::env::split_paths(&path).map(|folder| folder.join(tool)).find(|file| file.is_file());
     found.expect("the tool is installed").display().to_string()
 }
+
+#[test]
+fn a_person_marks_what_is_not_graded_automatically_and_nothing_else() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    std::fs::copy(student_file(), folder.path().join("render_pt.rs")).expect("it can be copied");
+    std::fs::write(folder.path().join("why.md"), "Each technique is noisy elsewhere.")
+        .expect("it can be written");
+    let graded = grader(folder.path(), &["grade", ".", "--only=light-pick", "--out=here"]);
+    let text = String::from_utf8_lossy(&graded.stdout).into_owned();
+    assert!(text.contains("why.md, 5 words"), "{text}{}", stderr(&graded));
+
+    for (task, points, expected) in
+        [("5.1a", "3", "graded automatically"), ("5.2a", "11", "0 to 10 points"), ("6", "1", "no task `6`")]
+    {
+        let refused = grader(folder.path(), &["mark", ".", task, points, "--out=here"]);
+        assert_eq!(refused.status.code(), Some(2));
+        assert!(stderr(&refused).contains(expected), "{}", stderr(&refused));
+    }
+    let marked = grader(folder.path(), &["mark", ".", "5.2a", "8", "--comment=well seen", "--out=here"]);
+    assert_eq!(marked.status.code(), Some(0), "{}", stderr(&marked));
+    // Grading again loses nothing of it.
+    for again in [false, true] {
+        if again {
+            grader(folder.path(), &["grade", ".", "--only=light-pick", "--out=here"]);
+        }
+        let report =
+            grader::report::Report::load(&folder.path().join("here/report.json")).expect("it is there");
+        let task = report.tasks.iter().find(|task| task.id == "5.2a").expect("it is a task");
+        assert_eq!((task.points, task.reason.as_str()), (Some(8.0), "well seen"), "again: {again}");
+        assert_eq!(report.points.marked, Some(8.0));
+        assert_eq!(report.submission.explanations.len(), 1);
+    }
+}

@@ -10,6 +10,7 @@ use super::record::Record;
 use super::similar::Group;
 use crate::error::Result;
 use crate::intake::Finding;
+use crate::marks::Marks;
 use crate::policy::{Lateness, Policy, Receipt, Standing};
 use crate::table::{Table, no_formula};
 
@@ -63,7 +64,7 @@ pub struct Row {
     pub received_at: Option<String>,
     /// What the policy says.
     pub lateness: Option<Lateness>,
-    /// The points that count, of the tasks that are graded automatically.
+    /// The points that count, of the tasks that are graded automatically or have been marked.
     pub points: Option<f64>,
     /// Written explanations, by name.
     pub explanations: Vec<String>,
@@ -117,6 +118,7 @@ impl Row {
     pub(super) fn of_record(
         member: &Member,
         record: &Record,
+        marks: &Marks,
         lateness: Option<Lateness>,
         receipt: Option<&Receipt>,
         policy: Option<&Policy>,
@@ -127,15 +129,20 @@ impl Row {
             let message = format!("not accepted: {} late", late.late_by_text());
             reason = Some(Finding { code: "late".to_owned(), message });
         }
+        let (mut tasks, mut raw) = (record.tasks.clone(), record.earned);
+        for mark in marks.of(&record.source) {
+            raw += mark.points;
+            tasks.insert(mark.task.clone(), Some(mark.points));
+        }
         let points = match (policy, &lateness) {
-            (Some(policy), Some(lateness)) => policy.points(record.earned, lateness),
-            _ => record.earned,
+            (Some(policy), Some(lateness)) => policy.points(raw, lateness),
+            _ => raw,
         };
         Self {
             reason,
             notes: record.notes.clone(),
-            tasks: record.tasks.clone(),
-            raw: Some(record.earned),
+            tasks,
+            raw: Some(raw),
             received_at: receipt.and_then(|receipt| receipt.received_at).map(|time| time.to_string()),
             lateness,
             points: Some(points),

@@ -19,6 +19,7 @@ use super::{Class, Member};
 use crate::error::{Error, Result};
 use crate::grade::{Grader, Options};
 use crate::intake::{self, Finding, HandIn};
+use crate::marks::Marks;
 use crate::mutants::hash_tree;
 use crate::policy::{Lateness, Policy, Receipt, the_one_that_counts};
 use crate::workspace::Workspace;
@@ -63,6 +64,8 @@ struct Shared<'a> {
     /// Hash of all that the verdicts depend on and that is the same for all.
     base: blake3::Hash,
     tasks: Vec<String>,
+    /// What a person has marked.
+    marks: Marks,
 }
 
 /// The hand-in of a member that counts.
@@ -106,6 +109,7 @@ pub fn run(
     let starter_text =
         std::fs::read_to_string(&starter_file).map_err(|error| Error::file(&starter_file, error))?;
     let shared = Shared {
+        marks: Marks::open(&options.out)?,
         base: hash_of_inputs(workspace, &grader, &options.grade)?,
         tasks: grader.rubric().tasks.iter().filter(|task| !task.manual).map(|task| task.id.clone()).collect(),
         starter: Starter::new(&starter_text),
@@ -179,7 +183,8 @@ impl Shared<'_> {
             Ok(Some(settled)) => {
                 let Settled { record, fingerprint, lateness, receipt, graded } = settled;
                 let change = before.as_ref().and_then(|before| change(&member.key, before, &record));
-                let row = Row::of_record(member, &record, lateness, receipt.as_ref(), self.policy);
+                let row =
+                    Row::of_record(member, &record, &self.marks, lateness, receipt.as_ref(), self.policy);
                 Done { index, row, fingerprint, change, graded }
             }
             Ok(None) => {
@@ -197,7 +202,7 @@ impl Shared<'_> {
                         Row {
                             kept: true,
                             reason: Some(trouble),
-                            ..Row::of_record(member, &record, lateness, receipt, self.policy)
+                            ..Row::of_record(member, &record, &self.marks, lateness, receipt, self.policy)
                         }
                     }
                     None => Row::harness(member, trouble),

@@ -9,6 +9,8 @@ use anstyle::{AnsiColor, Style};
 use comfy_table::presets::NOTHING;
 use comfy_table::{Attribute, Cell, CellAlignment, Color, ContentArrangement, Table};
 
+use crate::intake::harmless;
+
 use super::{CheckResult, Report, TaskResult, Verdict};
 use crate::sandbox::Level;
 use crate::scan::Finding;
@@ -41,6 +43,24 @@ fn write_summary(out: &mut impl Write, report: &Report, width: Option<usize>) ->
     }
     writeln!(out, "{}", table(report, width))?;
     paragraph(out, "", &sum(report), width)?;
+    for explanation in &report.submission.explanations {
+        let name = harmless(&explanation.name);
+        let bytes = explanation.bytes;
+        match &explanation.text {
+            Some(text) => {
+                let words = text.split_whitespace().count();
+                paragraph(
+                    out,
+                    "",
+                    &format!("explanation: {name}, {words} words, shown in report.html"),
+                    width,
+                )?;
+            }
+            None => {
+                paragraph(out, "", &format!("explanation: {name}, {bytes} bytes: open it yourself"), width)?
+            }
+        }
+    }
     for task in &report.tasks {
         write_failures(out, task, report, width)?;
     }
@@ -124,7 +144,11 @@ fn sum(report: &Report) -> String {
             points.elsewhere
         );
     }
-    format!("{text} ({} more are marked by a person), {:.1} s", points.manual_max, report.cost.total)
+    let manual = match points.marked {
+        Some(marked) => format!("{marked} of {} given by a person", points.manual_max),
+        None => format!("{} more are marked by a person", points.manual_max),
+    };
+    format!("{text} ({manual}), {:.1} s", report.cost.total)
 }
 
 /// What is wrong in a task, and the command that shows it again.

@@ -33,7 +33,10 @@ pub fn page(report: &Report, pictures: &[Picture]) -> String {
                     h1 { (report.submission.path) }
                     p.soft { "assignment " (report.assignment) }
                     p.sum { (points.earned) " of " (points.automatic_max) " points "
-                        small { "graded automatically; " (points.manual_max) " more are marked by a person" } }
+                        small { "graded automatically; " @match points.marked {
+                            Some(marked) => { (marked) " of " (points.manual_max) " given by a person" }
+                            None => { (points.manual_max) " more are marked by a person" }
+                        } } }
                 }
                 main {
                     (tasks(report))
@@ -41,6 +44,7 @@ pub fn page(report: &Report, pictures: &[Picture]) -> String {
                         h2 { "It does not compile" }
                         pre { (failure.messages) }
                     }
+                    (explanations(report))
                     (diagnosis(report))
                     (checks(report))
                     @if !pictures.is_empty() {
@@ -88,6 +92,21 @@ fn advice(task: &TaskResult, report: &Report) -> Markup {
         (wrong.explanation)
         @if wrong.verdict == Verdict::Inconclusive { " Bring the noise down first: " } @else { " Mend this first: " }
         code { (wrong.repeat) }
+    }
+}
+
+/// What the student wrote, for the person who marks it.
+fn explanations(report: &Report) -> Markup {
+    html! {
+        @for explanation in &report.submission.explanations {
+            details {
+                summary { "Explanation: " (explanation.name) }
+                @match &explanation.text {
+                    Some(text) => pre { (text) },
+                    None => p { "not a text: open the file itself (" (explanation.bytes) " bytes, BLAKE3 " code { (explanation.hash) } ")" }
+                }
+            }
+        }
     }
 }
 
