@@ -12,9 +12,8 @@ use super::surroundings::Received;
 use super::wording::{not_covered, shortened, word, wrong};
 use crate::report::{Report, TaskResult};
 
-/// Characters of one explanation, and of rustc's messages, that are shown.
+/// Characters of a name.
 const LONGEST: usize = 600;
-const LONGEST_MESSAGES: usize = 20_000;
 
 /// The results.
 pub(super) fn results(report: &Report, surroundings: &Surroundings) -> serde_json::Result<String> {
@@ -65,7 +64,7 @@ fn output(report: &Report, surroundings: &Surroundings) -> String {
     }
     if let Some(failure) = &report.submission.build_failure {
         out += "\n\n**It does not compile.**\n\n";
-        out += &block(&shortened(&failure.messages, LONGEST_MESSAGES));
+        out += &block(&failure.messages);
     }
     if let Some(Received { created_at, due: Some(due) }) = surroundings.received
         && created_at > due
@@ -81,15 +80,10 @@ fn output(report: &Report, surroundings: &Surroundings) -> String {
 }
 
 fn details(report: &Report, task: &TaskResult) -> String {
-    let mut out = text(&shortened(&task.reason, LONGEST));
+    let mut out = text(&task.reason);
     for check in wrong(report, task) {
-        let _ = write!(
-            out,
-            "\n\n**{}** {}: {}",
-            word(check.verdict),
-            text(&check.id),
-            text(&shortened(&check.explanation, LONGEST))
-        );
+        let _ =
+            write!(out, "\n\n**{}** {}: {}", word(check.verdict), text(&check.id), text(&check.explanation));
     }
     out
 }

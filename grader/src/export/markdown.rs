@@ -24,21 +24,20 @@ pub fn summary(report: &Report) -> String {
     out += "| task | | points | what is missing |\n|---|---|--:|---|\n";
     for task in &report.tasks {
         let points = task.points.map_or_else(|| "–".to_owned(), |points| points.to_string());
-        let (id, title, reason) =
-            (text(&task.id), text(&task.title), text(&shortened(&task.reason, LONGEST)));
+        let (id, title, reason) = (text(&task.id), text(&task.title), text(&task.reason));
         let _ = writeln!(out, "| {id} | {title} | {points} / {} | {reason} |", task.max);
     }
     if let Some(failure) = &report.submission.build_failure {
         out += "\n### It does not compile\n\n";
-        out += &block(&shortened(&failure.messages, LONGEST_MESSAGES));
+        out += &block(&failure.messages);
     }
     for cause in &report.diagnosis {
         let _ = writeln!(
             out,
             "\n### Likely cause: {}\n\n{}\n\n{}",
             text(&cause.title),
-            text(&shortened(&cause.evidence, LONGEST)),
-            text(&shortened(&cause.hint, LONGEST))
+            text(&cause.evidence),
+            text(&cause.hint)
         );
     }
     for task in &report.tasks {
@@ -53,7 +52,7 @@ pub fn summary(report: &Report) -> String {
     if !remarks.is_empty() {
         out += "\n### Remarks, for no points\n\n";
         for (check, remark) in remarks {
-            let _ = writeln!(out, "- {}: {}", text(&check.id), text(&shortened(remark, LONGEST)));
+            let _ = writeln!(out, "- {}: {}", text(&check.id), text(remark));
         }
     }
     if !report.sandbox.missing.is_empty() {
@@ -68,7 +67,7 @@ fn failures(out: &mut String, report: &Report, task: &TaskResult) {
     let Some(first) = failed.first() else { return };
     let _ = writeln!(out, "\n### {} {}\n", text(&task.id), text(&task.title));
     for check in failed.iter().take(EXPLAINED) {
-        let explanation = text(&shortened(&check.explanation, LONGEST));
+        let explanation = text(&check.explanation);
         let _ = writeln!(out, "- **{}** {}: {explanation}", word(check.verdict), text(&check.id));
     }
     if failed.len() > EXPLAINED {
@@ -77,10 +76,10 @@ fn failures(out: &mut String, report: &Report, task: &TaskResult) {
     let _ = write!(out, "\nTo see the first again:\n\n{}", block(&first.repeat));
 }
 
-/// A text in one line in which nothing is Markdown or HTML, as it can also stand in a table.
+/// The beginning of a text, in one line in which nothing is Markdown or HTML, as it can also stand in a table.
 pub(super) fn text(plain: &str) -> String {
     let mut out = String::new();
-    for character in plain.chars() {
+    for character in shortened(plain, LONGEST).chars() {
         match character {
             '\n' | '\r' | '\t' => out.push(' '),
             _ if character.is_control() => {}
@@ -97,8 +96,10 @@ pub(super) fn text(plain: &str) -> String {
     out.replace("www.", "www&#46;").replace("WWW.", "WWW&#46;")
 }
 
-/// A text as it stands, in a block with more backticks than it has itself.
+/// The beginning of a text as it stands, in a block with more backticks than it has itself.
 pub(super) fn block(plain: &str) -> String {
+    let plain =
+        shortened(plain, LONGEST_MESSAGES).replace(|c: char| c.is_control() && c != '\n' && c != '\t', "");
     let (mut longest, mut run) = (0, 0);
     for character in plain.chars() {
         run = if character == '`' { run + 1 } else { 0 };
@@ -116,10 +117,21 @@ mod tests {
     #[test]
     fn nothing_in_a_report_becomes_markup() {
         let made = summary(&report(EVIL));
-        for sign in ["<script", "![", "](", "\u{7}", "https://"] {
-            let outside: String = made.split("```").step_by(2).collect::<Vec<_>>().join("");
+        // A block ends at the fence that it began with.
+        let (mut outside, mut fence) = (String::new(), None);
+        for line in made.lines() {
+            match fence {
+                Some(open) if line == open => fence = None,
+                Some(_) => {}
+                None if line.starts_with("```") => fence = line.strip_suffix("text"),
+                None => outside += line,
+            }
+        }
+        assert!(outside.contains("Remarks"), "blocks end: {made}");
+        for sign in ["<script", "![", "](", "https://", "```"] {
             assert!(!outside.contains(sign), "{sign}: {made}");
         }
+        assert!(!made.contains(['\u{7}', '\u{1b}', '\0']), "{made:?}");
         let rows: Vec<&str> = made.lines().filter(|line| line.starts_with('|')).collect();
         assert_eq!(rows.len(), 4, "{made}");
         assert!(rows.iter().all(|row| row.matches('|').count() == 5), "{made}");
