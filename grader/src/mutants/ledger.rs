@@ -132,6 +132,24 @@ fn record(key: String, variant: &Variant, seed: u64, report: &Report) -> Record 
     }
 }
 
+/// Folders of what neither makes nor judges an image.
+const IRRELEVANT: [&str; 14] = [
+    "algorithms",
+    "calibration",
+    "class",
+    "cli",
+    "commands",
+    "convergence",
+    "export",
+    "handout",
+    "image_error",
+    "intake",
+    "mutants",
+    "pictures",
+    "policy",
+    "report",
+];
+
 /// Over the rubric, scenes and references, the framework and all of the grader but this command.
 pub fn hash_of_inputs(workspace: &Workspace, assignment: &str) -> Result<blake3::Hash> {
     let root = workspace.root();
@@ -154,10 +172,7 @@ pub(crate) fn hash_tree(path: &Path, hasher: &mut blake3::Hasher) -> Result<()> 
         hasher.update(blake3::hash(&std::fs::read(path).map_err(trouble)?).as_bytes());
         return Ok(());
     }
-    if ["mutants", "commands", "pictures", "algorithms", "cli", "class", "intake", "policy"]
-        .iter()
-        .any(|&other| name == other)
-    {
+    if IRRELEVANT.iter().any(|&other| name == other) {
         return Ok(());
     }
     let mut entries = std::fs::read_dir(path)
