@@ -187,11 +187,13 @@ impl Grader {
         }
         let run_time = run_start.elapsed().as_secs_f64();
         let build_failure = built.err();
-        let nothing_ran = match (&build_failure, refusal) {
-            (None, _) => None,
-            (Some(_), None) => Some("the hand-in does not compile"),
-            (Some(_), Some(_)) => Some("there is nothing that can be graded"),
-        };
+        let nothing_ran = build_failure.as_ref().map(|_| {
+            if refusal.is_some() {
+                "there is nothing that can be graded"
+            } else {
+                "the hand-in does not compile"
+            }
+        });
         let tasks: Vec<TaskResult> =
             rubric.tasks.iter().map(|task| mark(task, &selected, &checks, &left_out, nothing_ran)).collect();
         let tasks = require(rubric, tasks, &checks);

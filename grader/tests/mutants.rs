@@ -105,7 +105,6 @@ fn every_check_fails_on_what_it_is_for() {
         ("metamorphic/light_behind_wall/nee/8", "samples-clamped-at-ten"),
         ("mis-weights/scripted/mis/3", "mis-weights-swapped"),
         ("randomness/cornell_box/nee/8", "same-numbers-for-neighbours"),
-        ("randomness/cornell_box/nee/8", "same-numbers-for-every-path"),
         ("ray-budget/scripted/nee/3", "all-lights-with-a-shadow-ray-each"),
         ("stability/scripted/mis/3", "samples-clamped-at-ten"),
         ("white-furnace/furnace_diffuse/mis/3", "mis-hit-unweighted"),
