@@ -15,7 +15,7 @@ struct Watching {
 impl Watching {
     fn start(folder: &Path) -> Self {
         let mut child = Command::new(env!("CARGO_BIN_EXE_grader"))
-            .args(["grade", "render_pt.rs", "--watch", "--only=mean-bias/point_plane/nee/1"])
+            .args(["grade", "render_pt.rs", "--watch", "--only=mean-bias/cornell_box_point/nee/1"])
             .current_dir(folder)
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
