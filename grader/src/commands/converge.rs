@@ -7,7 +7,7 @@ use arty::image::check_writable;
 use arty::integrator::Technique;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::build::{Framework, HandInProgram, compile};
+use crate::build::{Framework, compile, solution};
 use crate::convergence::{
     Contestant, Options, Role, TELLING_SCENES, measure, print_table, save_csv, save_json, svg,
 };
@@ -119,17 +119,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     print_table(&convergence);
     eprintln!("plot and numbers: {}, .csv, .json", file("svg").display());
     Ok(ExitCode::SUCCESS)
-}
-
-/// The solution, where the checkout has one.
-fn solution(workspace: &Workspace, framework: &Framework) -> Result<Option<HandInProgram>> {
-    if !workspace.solution_file().is_file() {
-        return Ok(None);
-    }
-    let source = Submission::read(&workspace.solution_file())?.source;
-    compile(framework, &source, &Limits::default())?
-        .map(Some)
-        .map_err(|failure| Error::Harness(format!("the solution does not compile:\n{}", failure.messages)))
 }
 
 /// What each hand-in is called: by its file or folder, or by all of its path where that is the name of several.

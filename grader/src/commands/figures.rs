@@ -8,6 +8,7 @@ use arty::math::Rgb;
 use arty::scene::file::load;
 use font8x8::UnicodeFonts;
 
+use super::assignment::Assignment;
 use super::trusted::solution;
 use crate::error::{Error, Result};
 use crate::reference::picture;
@@ -16,9 +17,8 @@ use crate::workspace::Workspace;
 /// Render the figures of the sheet with the solution.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// The assignment whose figures are rendered
-    #[arg(long, default_value = "05-nee-mis")]
-    assignment: String,
+    #[command(flatten)]
+    assignment: Assignment,
     /// Seed of all random numbers
     #[arg(long, default_value_t = 5)]
     seed: u64,
@@ -81,7 +81,7 @@ const FIGURES: [(&str, &[Panel]); 3] = [
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let folder = workspace.assignment(&arguments.assignment).join("figures");
+    let folder = workspace.assignment(&arguments.assignment.name).join("figures");
     std::fs::create_dir_all(&folder).map_err(|error| Error::file(&folder, error))?;
     let program = solution(&workspace)?;
     for (name, panels) in FIGURES {

@@ -2,36 +2,32 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::build::{Framework, HandInProgram, compile};
+use crate::build::compile;
 use crate::convergence::{brief, print_sentences};
 use crate::error::{Error, Result};
+use crate::grade::{Grader, Options};
 use crate::report::{Picture, Report, page, pictures};
-use crate::sandbox::Limits;
 use crate::submission::Submission;
 use crate::workspace::Workspace;
 
 /// Completes a report, saves it again, and writes it as `report.html` beside it. The points do not change.
 pub(super) fn complete(
     workspace: &Workspace,
+    grader: &Grader,
     submission: &Submission,
-    seed: u64,
     report: &mut Report,
     file: &Path,
 ) -> Result<()> {
     let mut shown = Vec::new();
     if report.submission.build_failure.is_none() {
         eprintln!("measuring error against run time, for no points (--no-report leaves it out) …");
-        let framework = Framework::build(workspace)?;
-        let (hand_in, solution) = rayon::join(
-            || compile(&framework, &submission.source, &Limits::default()),
-            || solution(workspace, &framework),
-        );
-        if let Ok(hand_in) = hand_in? {
-            let convergence = brief(workspace, &hand_in, solution?.as_ref(), seed)?;
+        let Options { seed, threads, limits, .. } = grader.options();
+        if let Ok(hand_in) = compile(grader.framework(), &submission.source, limits)? {
+            let convergence = brief(workspace, &hand_in, grader.solution(), *seed)?;
             println!("\nError against run time, for no points");
             print_sentences(&convergence);
             report.convergence = Some(convergence);
-            shown = pictures(workspace, &hand_in, report, rayon::current_num_threads(), seed)?;
+            shown = pictures(workspace, &hand_in, report, *threads, *seed)?;
             report.images = shown.iter().map(Picture::error).collect();
         }
     }
@@ -56,13 +52,4 @@ pub(super) fn remove_page(file: &Path) -> Result<()> {
 /// `report.html` beside `report.json`.
 fn page_beside(file: &Path) -> PathBuf {
     file.with_extension("html")
-}
-
-/// The solution, in a checkout that has one which compiles.
-fn solution(workspace: &Workspace, framework: &Framework) -> Result<Option<HandInProgram>> {
-    let path = workspace.solution_file();
-    if !path.is_file() {
-        return Ok(None);
-    }
-    Ok(compile(framework, &Submission::read(&path)?.source, &Limits::default())?.ok())
 }

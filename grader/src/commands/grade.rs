@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use arty::image::check_writable;
 
+use super::assignment::Assignment;
 use super::lateness::When;
 use super::least_sandbox::LeastSandbox;
 use super::{export, full_report, watch};
@@ -22,9 +23,8 @@ use crate::workspace::Workspace;
 pub(super) struct Arguments {
     /// A render_pt.rs, or a folder, .zip, .tar.gz or git repository with one in it [default: the student file in the skeleton]
     submission: Option<PathBuf>,
-    /// The assignment: a folder below assignments/
-    #[arg(long, default_value = "05-nee-mis")]
-    assignment: String,
+    #[command(flatten)]
+    assignment: Assignment,
     /// Folder for report.json and report.html; it is made if it is not there
     #[arg(long, value_name = "DIR", default_value = "report")]
     out: PathBuf,
@@ -63,11 +63,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let path = arguments.submission.clone().unwrap_or_else(|| workspace.student_file());
     let path = relative(path);
-    let received = arguments.when.read(&workspace, &arguments.assignment)?;
+    let received = arguments.when.read(&workspace, &arguments.assignment.name)?;
     let HandIn { outcome, notes, checksums, explanations } = take(&workspace, &path)?;
     let threads = arguments.jobs.map_or_else(rayon::current_num_threads, usize::from);
     let options = Options {
-        assignment: arguments.assignment.clone(),
+        assignment: arguments.assignment.name.clone(),
         seed: arguments.seed,
         threads,
         only: arguments.only.clone(),
@@ -119,7 +119,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     }
     export::after_grade(&report, &arguments.export, &arguments.out)?;
     if !arguments.no_report && arguments.only.is_empty() {
-        let completed = full_report::complete(&workspace, &submission, arguments.seed, &mut report, &file);
+        let completed = full_report::complete(&workspace, &grader, &submission, &mut report, &file);
         if let Err(error) = completed {
             // The points stand and are saved: whoever waits for them must not be told that grading failed.
             eprintln!("warning: the report is not complete: {error}");

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use super::assignment::Assignment;
 use crate::error::Result;
 use crate::handout;
 use crate::workspace::Workspace;
@@ -13,14 +14,13 @@ pub(super) struct Arguments {
     /// The archive to write
     #[arg(long, value_name = "FILE.zip", default_value = "autograder.zip")]
     out: PathBuf,
-    /// The assignment: a folder below assignments/
-    #[arg(long, default_value = "05-nee-mis")]
-    assignment: String,
+    #[command(flatten)]
+    assignment: Assignment,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let bytes = handout::autograder(&workspace, &arguments.assignment, &arguments.out)?;
+    let bytes = handout::autograder(&workspace, &arguments.assignment.name, &arguments.out)?;
     println!("{}: {:.1} MB, with the solution: for staff only", arguments.out.display(), bytes as f64 / 1e6);
     Ok(ExitCode::SUCCESS)
 }

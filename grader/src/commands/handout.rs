@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use super::assignment::Assignment;
 use crate::error::Result;
 use crate::handout;
-use crate::rubric::{CheckKind, Rubric};
+use crate::rubric::CheckKind;
 use crate::workspace::Workspace;
 
 /// Make the folder that students get: everything but the solution and what would give it away (for staff).
@@ -14,15 +15,14 @@ pub(super) struct Arguments {
     /// The folder to write; it must not be there yet, or be empty
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// The assignment: a folder below assignments/
-    #[arg(long, default_value = "05-nee-mis")]
-    assignment: String,
+    #[command(flatten)]
+    assignment: Assignment,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let rubric = Rubric::load(&workspace.assignment(&arguments.assignment).join("rubric.yml"))?;
-    let summary = handout::make(&workspace, &arguments.assignment, &arguments.out)?;
+    let rubric = arguments.assignment.rubric(&workspace)?;
+    let summary = handout::make(&workspace, &arguments.assignment.name, &arguments.out)?;
     let out = arguments.out.display();
     println!("{out}: {} files, {:.1} MB", summary.files, summary.bytes as f64 / 1e6);
     println!("no eight tokens in a row of the solution's task blocks are in it");

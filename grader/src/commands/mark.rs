@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use super::assignment::Assignment;
 use crate::error::{Error, Result};
 use crate::intake;
 use crate::marks::{Mark, Marks, why_not};
 use crate::report::{Report, print_summary};
-use crate::rubric::Rubric;
 use crate::workspace::Workspace;
 
 /// Record the points that a person gives for a task that is not graded automatically.
@@ -25,14 +25,13 @@ pub(super) struct Arguments {
     /// The folder of the grade's results: marks are kept there, and go into its report
     #[arg(long, value_name = "DIR", default_value = "report")]
     out: PathBuf,
-    /// The assignment: a folder below assignments/
-    #[arg(long, default_value = "05-nee-mis")]
-    assignment: String,
+    #[command(flatten)]
+    assignment: Assignment,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let rubric = Rubric::load(&workspace.assignment(&arguments.assignment).join("rubric.yml"))?;
+    let rubric = arguments.assignment.rubric(&workspace)?;
     if let Some(why) = why_not(&rubric, &arguments.task, arguments.points) {
         return Err(Error::Input(why));
     }

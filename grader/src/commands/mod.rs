@@ -1,5 +1,6 @@
 //! The commands of the program.
 
+mod assignment;
 mod calibrate;
 mod class;
 mod completions;

@@ -5,10 +5,10 @@ use std::process::ExitCode;
 
 use indicatif::ProgressBar;
 
+use super::assignment::Assignment;
 use crate::error::{Error, Result};
 use crate::grade::Options;
 use crate::mutants::{Ledger, Outcome, Record, Variant, table, variants};
-use crate::rubric::Rubric;
 use crate::sandbox::Limits;
 use crate::workspace::Workspace;
 
@@ -21,9 +21,8 @@ pub(super) struct Arguments {
     /// Grade each with the seeds 1 to N
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     seeds: u64,
-    /// The assignment: a folder below assignments/
-    #[arg(long, default_value = "05-nee-mis")]
-    assignment: String,
+    #[command(flatten)]
+    assignment: Assignment,
     /// Folder of the results; those that are there already are used [default: target/mutants]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -35,7 +34,7 @@ pub(super) struct Arguments {
 /// Exit status 1 if anything is as nobody expected.
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let rubric = Rubric::load(&workspace.assignment(&arguments.assignment).join("rubric.yml"))?;
+    let rubric = arguments.assignment.rubric(&workspace)?;
     let all = variants(&workspace, &rubric)?;
     let selected: Vec<&Variant> =
         all.list.iter().filter(|variant| is_selected(variant, &arguments.only)).collect();
@@ -43,12 +42,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         return Err(Error::Input("--only: there is no such variant, row or kind".to_owned()));
     }
     let folder = arguments.out.clone().unwrap_or_else(|| workspace.root().join("target/mutants"));
-    let mut ledger = Ledger::open(&folder, &workspace, &arguments.assignment)?;
+    let mut ledger = Ledger::open(&folder, &workspace, &arguments.assignment.name)?;
     let threads = arguments.jobs.unwrap_or_else(rayon::current_num_threads).max(1);
 
     let bar = ProgressBar::new(arguments.seeds * selected.len() as u64);
     for seed in 1..=arguments.seeds {
-        let assignment = arguments.assignment.clone();
+        let assignment = arguments.assignment.name.clone();
         let options = Options { assignment, seed, threads, only: Vec::new(), limits: Limits::default() };
         ledger.grade(&workspace, &selected, &options, || false, |_| bar.inc(1))?;
     }

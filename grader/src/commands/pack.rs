@@ -8,13 +8,13 @@ use jiff::Timestamp;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
+use super::assignment::Assignment;
 use super::lateness::standing;
 use super::policy::policy;
 use crate::build::{Framework, compile};
 use crate::error::{Error, Result};
 use crate::intake::md5_of;
 use crate::policy::Receipt;
-use crate::rubric::Rubric;
 use crate::sandbox::Limits;
 use crate::submission::{FILE_NAME, Submission};
 use crate::workspace::Workspace;
@@ -36,9 +36,8 @@ pub(super) struct Arguments {
     /// Your login, if you have an extension
     #[arg(long, default_value = "")]
     student: String,
-    /// The assignment: a folder below assignments/
-    #[arg(long, default_value = "05-nee-mis")]
-    assignment: String,
+    #[command(flatten)]
+    assignment: Assignment,
     /// Deadline and extensions [default: course.yml beside the rubric, if there is one]
     #[arg(long, value_name = "FILE.yml")]
     course: Option<PathBuf>,
@@ -46,8 +45,8 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let rubric = Rubric::load(&workspace.assignment(&arguments.assignment).join("rubric.yml"))?;
-    let policy = policy(&workspace, &arguments.assignment, &rubric, arguments.course.as_deref())?;
+    let rubric = arguments.assignment.rubric(&workspace)?;
+    let policy = policy(&workspace, &arguments.assignment.name, &rubric, arguments.course.as_deref())?;
     let file = arguments.file.clone().unwrap_or_else(|| workspace.student_file());
     let submission = Submission::read(&file)?;
     let mut entries = vec![(FILE_NAME.to_owned(), submission.source.clone().into_bytes())];

@@ -7,10 +7,10 @@ use arty::image::exr::{ExrFile, Precision};
 use arty::integrator::{Settings, Technique};
 use arty::scene::file::load;
 
+use super::assignment::Assignment;
 use super::trusted::solution;
 use crate::error::{Error, Result};
 use crate::reference::{self, Effort};
-use crate::rubric::Rubric;
 use crate::workspace::Workspace;
 
 /// Width and height of the pictures to look at.
@@ -24,9 +24,8 @@ const PICTURE_SAMPLES: u64 = 256;
 pub(super) struct Arguments {
     /// Scenes by name [default: all that the assignment checks]
     scenes: Vec<String>,
-    /// The assignment that says which images of a scene are needed
-    #[arg(long, default_value = "05-nee-mis")]
-    assignment: String,
+    #[command(flatten)]
+    assignment: Assignment,
     /// Seed of all random numbers
     #[arg(long, default_value_t = 20_190_501)]
     seed: u64,
@@ -40,7 +39,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let rubric = Rubric::load(&workspace.assignment(&arguments.assignment).join("rubric.yml"))?;
+    let rubric = arguments.assignment.rubric(&workspace)?;
     let mut wanted = rubric.scenes();
     if let Some(unknown) = arguments.scenes.iter().find(|scene| !wanted.contains_key(scene.as_str())) {
         let known: Vec<&str> = wanted.keys().copied().collect();

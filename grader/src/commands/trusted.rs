@@ -1,14 +1,11 @@
-//! The solution as a program: staff's own code, built like any hand-in.
+//! The solution, for commands that are nothing without it.
 
-use crate::build::{Framework, HandInProgram, compile};
+use crate::build::{self, Framework, HandInProgram};
 use crate::error::{Error, Result};
-use crate::sandbox::Limits;
-use crate::submission::Submission;
 use crate::workspace::Workspace;
 
 /// Compiles the solution.
 pub(super) fn solution(workspace: &Workspace) -> Result<HandInProgram> {
-    let solution = Submission::read(&workspace.solution_file())?;
-    compile(&Framework::build(workspace)?, &solution.source, &Limits::default())?
-        .map_err(|failure| Error::Harness(format!("the solution does not compile:\n{}", failure.messages)))
+    build::solution(workspace, &Framework::build(workspace)?)?
+        .ok_or_else(|| Error::file(&workspace.solution_file(), "this checkout does not have the solution"))
 }

@@ -11,7 +11,7 @@ use notify_debouncer_mini::new_debouncer;
 use notify_debouncer_mini::notify::{self, RecursiveMode};
 
 use crate::error::{Error, Result};
-use crate::grade::{Options, grade};
+use crate::grade::{Grader, Options};
 use crate::report::{CheckResult, Report, Verdict};
 use crate::submission::Submission;
 use crate::workspace::Workspace;
@@ -40,13 +40,14 @@ pub(super) fn watch(workspace: &Workspace, path: &Path, options: &Options, file:
     };
     debouncer.watcher().watch(&folder, mode).map_err(trouble)?;
 
+    let grader = Grader::new(workspace, options)?;
     let mut last = None;
     loop {
         match Submission::read(path) {
             Ok(submission) if last.as_ref() == Some(&submission.hash()) => {}
             Ok(submission) => {
                 last = Some(submission.hash());
-                show(&grade_once(workspace, &submission, options, file), path);
+                show(&grade_once(&grader, &submission, file), path);
             }
             Err(error) => {
                 last = None;
@@ -71,10 +72,10 @@ fn folder_of(path: &Path) -> PathBuf {
 }
 
 /// Grades and says what came out of it. The table is drawn again after each check: the quickest come first.
-fn grade_once(workspace: &Workspace, submission: &Submission, options: &Options, file: &Path) -> String {
+fn grade_once(grader: &Grader, submission: &Submission, file: &Path) -> String {
     let mut checks: Vec<CheckResult> = Vec::new();
     show("compiling …", &submission.path);
-    let graded = grade(workspace, submission, options, |check| {
+    let graded = grader.grade(submission, |check| {
         checks.push(check.clone());
         if std::io::stdout().is_terminal() {
             show(&format!("{}\nchecking …", table_of(&checks)), &submission.path);

@@ -18,7 +18,7 @@ pub(super) fn line(report: &Report) -> serde_json::Result<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::export::sample::{EVIL, report};
+    use crate::report::sample::{EVIL, report};
 
     #[test]
     fn it_is_one_line_of_the_tasks_that_have_points() {

@@ -42,7 +42,7 @@ pub(super) fn result(report: &Report, surroundings: &Surroundings) -> serde_json
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::export::sample::{EVIL, report};
+    use crate::report::sample::{EVIL, report};
 
     #[test]
     fn it_has_every_key_and_whole_numbers_that_add_up() {

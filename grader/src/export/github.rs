@@ -65,7 +65,7 @@ fn property(text: &str) -> String {
 mod tests {
     use super::*;
     use crate::build::BuildFailure;
-    use crate::export::sample::{EVIL, report};
+    use crate::report::sample::{EVIL, report};
 
     /// Takes a workflow command apart as the runner of GitHub does: up to the first `::`, split at commas, unescaped.
     fn read(line: &str) -> (String, Vec<(String, String)>, String) {

@@ -91,7 +91,7 @@ fn details(report: &Report, task: &TaskResult) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::export::sample::{EVIL, report};
+    use crate::report::sample::{EVIL, report};
 
     /// What Gradescope's documentation demands of a file, as far as we use it.
     fn assert_valid(value: &Value) {

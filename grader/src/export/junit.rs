@@ -93,7 +93,7 @@ fn skipped(why: &str) -> TestCaseStatus {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::export::sample::{EVIL, report};
+    use crate::report::sample::{EVIL, report};
 
     #[test]
     fn what_is_written_reads_back_whatever_stands_in_the_report() {

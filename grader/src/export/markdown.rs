@@ -112,7 +112,7 @@ pub(super) fn block(plain: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::export::sample::{EVIL, report};
+    use crate::report::sample::{EVIL, report};
 
     #[test]
     fn nothing_in_a_report_becomes_markup() {

@@ -8,8 +8,6 @@ mod github;
 mod gradescope;
 mod junit;
 mod markdown;
-#[cfg(test)]
-pub(crate) mod sample;
 mod surroundings;
 mod wording;
 

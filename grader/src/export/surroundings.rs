@@ -112,7 +112,7 @@ fn task_lines(source: &str, report: &Report) -> BTreeMap<String, usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::export::sample::report;
+    use crate::report::sample::report;
 
     #[test]
     fn tasks_are_found_at_their_marks() {

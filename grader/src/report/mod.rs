@@ -3,6 +3,8 @@
 mod page;
 mod pictures;
 mod progress;
+#[cfg(test)]
+pub(crate) mod sample;
 mod terminal;
 
 use std::collections::BTreeMap;

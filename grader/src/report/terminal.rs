@@ -252,7 +252,7 @@ pub(super) fn word(verdict: Verdict) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::export::sample::report;
+    use crate::report::sample::report;
 
     fn shown(report: &Report, width: Option<usize>) -> String {
         let mut out = anstream::StripStream::new(Vec::new());
