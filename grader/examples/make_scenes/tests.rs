@@ -215,9 +215,12 @@ fn pictures_show_the_scene_whether_wide_or_square() {
 #[test]
 fn cameras_of_closed_forms_see_the_plane_only() {
     let collection = scenes::all();
-    for name in ["point_plane", "area_plane", "polygon_plane"] {
+    // A square picture of four_lights has the corner of a light in it, the wide one that is compared has not.
+    for (name, height) in
+        [("point_plane", 16), ("area_plane", 16), ("polygon_plane", 16), ("four_lights", 13)]
+    {
         let (scene, triangles) = scene(&collection, name);
-        for direction in camera_directions(scene, 16, 16) {
+        for direction in camera_directions(scene, 16, height) {
             let hit =
                 first_hit(&triangles, scene.camera.eye, direction).map(|(_, triangle)| triangle.material);
             assert_eq!(hit, Some("plane"), "{name}");
