@@ -11,7 +11,7 @@ use crate::report::{CheckResult, Reason, Verdict};
 use crate::rubric::{CheckSpec, Hits};
 use crate::statistics::bias::Expected;
 use crate::statistics::regions::{Kind, pyramid, weighted_image};
-use crate::statistics::sequential::{Decision, Demand, Judgement, LOOKS, Question, judge};
+use crate::statistics::sequential::{Decision, Demand, Judgement, Question, judge};
 
 /// A picture whose mean is judged.
 pub(super) struct Picture<'a> {
@@ -48,13 +48,26 @@ impl<'a> Picture<'a> {
             switches: Switches { hits_off: spec.hits == Hits::Off, ..Switches::default() },
             tolerance: spec.tolerance,
             screening_level: bench.screening_level,
-            looks: LOOKS.len(),
+            looks: bench.looks,
             seed: bench.seed_of(spec),
         }
     }
 
     /// Judges what the hand-in makes of it.
     pub(super) fn judge(&self, bench: &Bench<'_>, numerics: &mut Numerics) -> Result<Judgement, Stop> {
+        let mut process = bench.start()?;
+        let scenes =
+            self.scenes.iter().map(|scene| Ok(process.load(scene)??)).collect::<Result<Vec<u32>, Stop>>()?;
+        self.judge_in(&mut process, &scenes, numerics)
+    }
+
+    /// The same by a process that has the scenes already.
+    pub(super) fn judge_in(
+        &self,
+        process: &mut HostProcess,
+        scenes: &[u32],
+        numerics: &mut Numerics,
+    ) -> Result<Judgement, Stop> {
         let mut regions = pyramid(SIZE.0, SIZE.1);
         regions.push(weighted_image(self.expected));
         let question = Question {
@@ -66,13 +79,10 @@ impl<'a> Picture<'a> {
             seed: self.seed,
             looks: self.looks,
         };
-        let mut process = HostProcess::start(bench.program, bench.threads)?;
-        let scenes =
-            self.scenes.iter().map(|scene| Ok(process.load(scene)??)).collect::<Result<Vec<u32>, Stop>>()?;
         judge(&question, |demand| {
             let mut sum: Vec<Vec<[f32; 3]>> = Vec::new();
             for (part, &scene) in scenes.iter().enumerate() {
-                let batches = self.render(&mut process, scene, part as u64, demand, numerics)?;
+                let batches = self.render(process, scene, part as u64, demand, numerics)?;
                 if sum.is_empty() {
                     sum = batches;
                 } else {

@@ -30,11 +30,15 @@ use host::protocol::{AnomalousSample, Switches};
 use crate::build::HandInProgram;
 use crate::error::Result;
 use crate::host_process::{Fault, HostProcess};
-use crate::reference::{Reference, SIZE};
+use crate::reference::{Oracle, Reference, SIZE};
 use crate::replay::Place;
 use crate::report::{CheckResult, Reason, Verdict};
 use crate::rubric::{CheckKind, CheckSpec, Hits, Task};
 use crate::workspace::Workspace;
+
+/// Looks at what nothing depends on any more: a large error shows in the first, and most of what is right passes in
+/// the second.
+const GLANCE: usize = 2;
 
 /// A scene with all that checks need to know of it.
 pub struct JudgedScene {
@@ -47,17 +51,20 @@ pub struct JudgedScene {
 }
 
 /// What all checks of a grade share.
+#[derive(Clone)]
 pub struct Bench<'a> {
     /// The hand-in.
     pub program: &'a HandInProgram,
-    /// The solution, compiled like a hand-in; none where the repository does not have it.
-    pub solution: Option<&'a HandInProgram>,
+    /// The solution; none where the repository does not have it.
+    pub oracle: Option<&'a Oracle>,
     /// The scenes by name.
     pub scenes: &'a BTreeMap<String, JudgedScene>,
     /// The seed of the grade.
     pub seed: u64,
     /// The share of the screening level that one check may spend.
     pub screening_level: f64,
+    /// How many of the looks that a picture is worth are taken at most.
+    pub looks: usize,
     /// Threads for the hand-in.
     pub threads: usize,
     /// The checkout.
@@ -98,6 +105,11 @@ impl Bench<'_> {
         Ok(result)
     }
 
+    /// The same for checks on which nothing depends any more: only as many looks as a pass takes at least.
+    pub fn at_a_glance(&self) -> Self {
+        Self { looks: GLANCE, ..self.clone() }
+    }
+
     /// The hand-in, started anew.
     fn start(&self) -> Result<HostProcess> {
         HostProcess::start(self.program, self.threads)
@@ -108,8 +120,17 @@ impl Bench<'_> {
         &self.scenes[&spec.scene]
     }
 
-    /// The result of a check that is not run, since the hand-in has already used up its time in another.
-    pub fn skip(&self, task: &Task, spec: &CheckSpec) -> CheckResult {
+    /// The result of a check that is not run, since it could change nothing: the points are lost to another.
+    pub fn leave_out(&self, task: &Task, spec: &CheckSpec, cause: &str) -> CheckResult {
+        let mut result = self.begin(task, spec);
+        result.verdict = Verdict::LeftOut;
+        result.reason = Reason::None;
+        result.explanation = format!("not run, since the points are lost to {cause}");
+        result
+    }
+
+    /// The result of a check that is not run, since the hand-in has already used up its time in others.
+    pub fn give_up(&self, task: &Task, spec: &CheckSpec) -> CheckResult {
         let mut result = self.begin(task, spec);
         result.verdict = Verdict::Fail;
         result.reason = Reason::Timeout;

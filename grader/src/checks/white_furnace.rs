@@ -28,6 +28,8 @@ pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult)
     let orders = furnace.orders(spec.max_bounces);
     let noise = mean_bias::expected(spec, &judged.reference)?;
     let scenes = [&judged.description];
+    let mut process = bench.start()?;
+    let loaded = [process.load(&judged.description)??];
     let (mut numerics, mut judgements) = (Numerics::default(), Vec::new());
     for &order in &orders {
         let expected = Expected {
@@ -39,7 +41,7 @@ pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult)
         picture.settings.max_bounces = order;
         picture.screening_level /= orders.len() as f64;
         picture.seed ^= u64::from(order).rotate_right(8);
-        judgements.push(picture.judge(bench, &mut numerics)?);
+        judgements.push(picture.judge_in(&mut process, &loaded, &mut numerics)?);
     }
     // The first bounce that is wrong tells most; without one, the one that is known least.
     let worst = judgements

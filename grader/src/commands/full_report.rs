@@ -6,6 +6,7 @@ use crate::build::compile;
 use crate::convergence::{brief, print_sentences};
 use crate::error::{Error, Result};
 use crate::grade::{Grader, Options};
+use crate::reference::Oracle;
 use crate::report::{Picture, Report, page, pictures};
 use crate::submission::Submission;
 use crate::workspace::Workspace;
@@ -23,7 +24,8 @@ pub(super) fn complete(
         eprintln!("measuring error against run time, for no points (--no-report leaves it out) …");
         let Options { seed, threads, limits, .. } = grader.options();
         if let Ok(hand_in) = compile(grader.framework(), &submission.source, limits)? {
-            let convergence = brief(workspace, &hand_in, grader.solution(), *seed)?;
+            let solution = grader.oracle().map(Oracle::program).transpose()?;
+            let convergence = brief(workspace, &hand_in, solution.as_deref(), *seed)?;
             println!("\nError against run time, for no points");
             print_sentences(&convergence);
             report.convergence = Some(convergence);

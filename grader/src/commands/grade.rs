@@ -14,7 +14,7 @@ use crate::export::Export;
 use crate::grade::{Grader, Options};
 use crate::intake::{self, Finding, HandIn, Refusal};
 use crate::marks::Marks;
-use crate::report::{Progress, print_sum, print_summary};
+use crate::report::{Progress, print_profile, print_sum, print_summary};
 use crate::submission::Submission;
 use crate::workspace::Workspace;
 
@@ -47,6 +47,9 @@ pub(super) struct Arguments {
     /// follow (`-` is standard output); may be given several times
     #[arg(long, value_name = "FORMAT[:FILE]", conflicts_with = "watch")]
     export: Vec<Export>,
+    /// Say where the time until the points went
+    #[arg(long, conflicts_with_all = ["quiet", "watch"])]
+    profile: bool,
     /// Print nothing but the sum of points; files are written all the same
     #[arg(long, short, conflicts_with = "watch")]
     quiet: bool,
@@ -116,6 +119,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     }
     if let Some(received) = &received {
         println!("{}", received.describe(report.points.earned, &checksums));
+    }
+    if arguments.profile {
+        print_profile(&report);
     }
     export::after_grade(&report, &arguments.export, &arguments.out)?;
     if !arguments.no_report && arguments.only.is_empty() {

@@ -79,7 +79,7 @@ pub fn make(
 }
 
 /// What a correct estimator gives in a scene without a reference: as the solution renders it now, `samples` times.
-pub fn live(
+pub(super) fn live(
     solution: &HandInProgram,
     description: &SceneDescription,
     settings: Settings,

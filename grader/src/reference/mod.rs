@@ -8,6 +8,7 @@
 
 mod file;
 mod make;
+mod oracle;
 
 use std::collections::BTreeMap;
 
@@ -17,7 +18,8 @@ use crate::rubric::View;
 use crate::statistics::bias::Expected;
 
 pub use file::{load, save};
-pub use make::{Effort, Wanted, live, make, picture};
+pub use make::{Effort, Wanted, make, picture};
+pub use oracle::Oracle;
 
 /// Width and height of references for judging, in pixels.
 pub const SIZE: (u32, u32) = (16, 16);

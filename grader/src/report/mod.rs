@@ -2,6 +2,7 @@
 
 mod page;
 mod pictures;
+mod profile;
 mod progress;
 #[cfg(test)]
 pub(crate) mod sample;
@@ -24,6 +25,7 @@ use crate::scan::Finding;
 
 pub use page::page;
 pub use pictures::{ImageError, Picture, pictures};
+pub use profile::print_profile;
 pub use progress::Progress;
 pub use terminal::{print_sum, print_summary};
 
@@ -274,7 +276,7 @@ pub struct Numerics {
 /// Where the time went, in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Cost {
-    /// Making the framework ready.
+    /// Making the framework, the scenes and their references ready.
     pub framework: f64,
     /// Compiling the hand-in.
     pub build: f64,

@@ -158,11 +158,11 @@ fn write_failures(
     report: &Report,
     width: Option<usize>,
 ) -> io::Result<()> {
-    let failed: Vec<&CheckResult> = report
-        .checks
-        .iter()
-        .filter(|check| check.task == task.id && check.verdict != Verdict::Pass)
-        .collect();
+    let lacks = |check: &&CheckResult| !matches!(check.verdict, Verdict::Pass | Verdict::LeftOut);
+    let mut failed: Vec<&CheckResult> =
+        report.checks.iter().filter(|check| check.task == task.id).filter(lacks).collect();
+    // What is known to be wrong stands before what is only not known to be right.
+    failed.sort_by_key(|check| (check.verdict != Verdict::Fail, !check.evidence));
     let Some(first) = failed.first() else { return Ok(()) };
     writeln!(out, "\n{}", bold(&format!("{} {}", task.id, task.title)))?;
     for check in failed.iter().take(EXPLAINED) {

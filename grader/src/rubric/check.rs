@@ -114,6 +114,12 @@ impl CheckKind {
         }
     }
 
+    /// True if it asks whether what is right in known scenes is right in others, too: it says nothing new of a hand-in
+    /// that is wrong in those.
+    pub fn goes_further(self) -> bool {
+        matches!(self, Self::HiddenVariants | Self::Metamorphic | Self::Stability)
+    }
+
     /// True if it is looked at in a scene of the collection.
     pub fn needs_scene(self) -> bool {
         !matches!(

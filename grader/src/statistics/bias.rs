@@ -1,12 +1,13 @@
 //! Is the mean of a region what it should be?
 
+use serde::{Deserialize, Serialize};
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal, StudentsT};
 
 use super::batches::Batches;
 use super::regions::Region;
 
 /// What a region's mean should be, and how noisy a correct estimator is there. All lists are by pixel and channel.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Expected {
     /// The mean of each pixel.
     pub mean: Vec<[f64; 3]>,

@@ -11,7 +11,6 @@ use arty::sampler::{Sampler, batch_seed};
 use super::means::{self, Numerics, Picture};
 use super::{Bench, Stop};
 use crate::error::Error;
-use crate::reference;
 use crate::report::{CheckResult, Verdict};
 use crate::rubric::CheckSpec;
 use crate::statistics::sequential::Decision;
@@ -26,8 +25,8 @@ const SAMPLES: u32 = 2048;
 const LOOKS: usize = 3;
 
 pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult) -> Result<(), Stop> {
-    let solution = bench
-        .solution
+    let oracle = bench
+        .oracle
         .ok_or_else(|| Error::Harness(format!("{}: there is no solution to compare with", spec.id())))?;
     let settings = Settings { technique: spec.technique, max_bounces: spec.max_bounces };
     let mut samples = 0;
@@ -36,11 +35,11 @@ pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult)
         let scene = draw::scene(&mut Sampler::new(seed, (0, 0), 0));
         let judge = |attempt: u64| {
             let seed = batch_seed(seed, attempt);
-            let expected = reference::live(solution, &scene, settings, SAMPLES, seed ^ 1, bench.threads)?;
+            let expected = oracle.expected(&scene, settings, SAMPLES, seed ^ 1, bench.threads)?;
             let scenes = [&scene];
             let mut picture = Picture::of(bench, spec, &scenes, &expected);
             picture.screening_level /= SCENES as f64;
-            picture.looks = LOOKS;
+            picture.looks = LOOKS.min(bench.looks);
             picture.seed = seed;
             let mut numerics = Numerics::default();
             let judgement = picture.judge(bench, &mut numerics)?;

@@ -46,6 +46,9 @@ pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult)
         if worst.as_ref().is_none_or(|(_, other)| grade(judgement.decision) > grade(other.decision)) {
             worst = Some((change, judgement));
         }
+        if worst.as_ref().is_some_and(|(_, worst)| worst.decision == Decision::Biased) {
+            break;
+        }
     }
     let Some((change, judgement)) = worst else { return Ok(()) };
     let samples = result.samples;

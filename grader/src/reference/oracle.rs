@@ -1,0 +1,103 @@
+//! The solution, asked about scenes that have no reference. What it said once is not rendered again.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use arty::integrator::Settings;
+use arty::scene::SceneDescription;
+
+use super::make::live;
+use crate::build::{Framework, HandInProgram, solution};
+use crate::error::{Error, Result};
+use crate::statistics::bias::Expected;
+use crate::workspace::Workspace;
+
+/// The solution of this checkout. It is compiled only once it is needed.
+///
+/// Its answers are kept beside the framework's libraries, under the hash of all that they depend on.
+#[derive(Debug)]
+pub struct Oracle {
+    workspace: Workspace,
+    framework: Framework,
+    /// Over the framework, the solution's source, and how its samples become an answer.
+    hash: blake3::Hash,
+    folder: PathBuf,
+    program: Mutex<Option<Arc<HandInProgram>>>,
+}
+
+impl Oracle {
+    /// The solution of a checkout; `None` if it does not have it.
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    pub fn of(workspace: &Workspace, framework: &Framework) -> Result<Option<Self>> {
+        let path = workspace.solution_file();
+        if !path.is_file() {
+            return Ok(None);
+        }
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(framework.hash()?.as_bytes());
+        hasher.update(include_bytes!("make.rs"));
+        hasher.update(&std::fs::read(&path).map_err(|error| Error::file(&path, error))?);
+        Ok(Some(Self {
+            workspace: workspace.clone(),
+            framework: framework.clone(),
+            hash: hasher.finalize(),
+            folder: workspace.framework_target().join("answers"),
+            program: Mutex::default(),
+        }))
+    }
+
+    /// The solution as a program.
+    ///
+    /// # Errors
+    /// If it does not compile.
+    pub fn program(&self) -> Result<Arc<HandInProgram>> {
+        let mut program = self.program.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(program) = &*program {
+            return Ok(Arc::clone(program));
+        }
+        let compiled = solution(&self.workspace, &self.framework)?.ok_or_else(|| {
+            Error::file(&self.workspace.solution_file(), "it was there a moment ago, and is gone")
+        })?;
+        Ok(Arc::clone(program.insert(Arc::new(compiled))))
+    }
+
+    /// What a correct estimator gives in a scene, with `samples` samples of each pixel.
+    ///
+    /// # Errors
+    /// If the solution fails, or if its answer cannot be written down.
+    pub fn expected(
+        &self,
+        scene: &SceneDescription,
+        settings: Settings,
+        samples: u32,
+        seed: u64,
+        threads: usize,
+    ) -> Result<Expected> {
+        let question = format!("{} {} {settings:?} {samples} {seed}", self.hash, scene.hash());
+        let file = self.folder.join(blake3::hash(question.as_bytes()).to_hex().as_str());
+        if let Some(answer) = read(&file) {
+            return Ok(answer);
+        }
+        let answer = live(&*self.program()?, scene, settings, samples, seed, threads)?;
+        let trouble = |error: &dyn std::fmt::Display| Error::file(&file, error);
+        let bytes = postcard::to_stdvec(&answer).map_err(|error| trouble(&error))?;
+        std::fs::create_dir_all(&self.folder).map_err(|error| trouble(&error))?;
+        arty::image::write_aside(&file, |writer| {
+            std::io::Write::write_all(writer, blake3::hash(&bytes).as_bytes())?;
+            std::io::Write::write_all(writer, &bytes)
+        })?;
+        Ok(answer)
+    }
+}
+
+/// An answer that was written down; `None` if there is none that is whole.
+fn read(file: &Path) -> Option<Expected> {
+    let bytes = std::fs::read(file).ok()?;
+    let (hash, answer) = bytes.split_at_checked(blake3::OUT_LEN)?;
+    if blake3::hash(answer).as_bytes() != hash {
+        return None;
+    }
+    postcard::from_bytes(answer).ok()
+}
