@@ -144,7 +144,7 @@ fn take(workspace: &Workspace, path: &Path) -> Result<HandIn> {
     let starter = std::fs::read_to_string(workspace.student_file()).unwrap_or_default();
     let hand_in = intake::take(&[path.to_owned()], &starter)?;
     match &hand_in.outcome {
-        Err(refusal @ (Refusal::MissingFile | Refusal::Unreadable(..))) => Err(Error::file(path, refusal)),
+        Err(refusal @ (Refusal::MissingFile(_) | Refusal::Unreadable(..))) => Err(Error::file(path, refusal)),
         _ => Ok(hand_in),
     }
 }

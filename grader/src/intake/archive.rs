@@ -140,7 +140,7 @@ fn collect_tar(
 
 /// True if an entry is read. What is no regular file within the archive is remembered, if it would matter.
 fn is_wanted(entry: &str, link: bool, collector: &mut Collector) -> bool {
-    if !Collector::wants(entry) {
+    if !collector.wants(entry) {
         return false;
     }
     let is_source = names::kind(entry) == Kind::Named;

@@ -35,7 +35,12 @@ pub(super) struct Collector {
     checksums: Vec<String>,
     entries: usize,
     unpacked: u64,
+    /// The first names that were come upon.
+    seen: Vec<String>,
 }
+
+/// How many names of other files are told where the source is missing.
+const NAMED: usize = 5;
 
 impl Collector {
     /// Counts an entry of a folder, archive or repository.
@@ -79,8 +84,14 @@ impl Collector {
     }
 
     /// True if a file of this name is worth opening.
-    pub(super) fn wants(name: &str) -> bool {
-        !names::is_left_behind(name) && names::kind(name) != Kind::Other
+    pub(super) fn wants(&mut self, name: &str) -> bool {
+        if names::is_left_behind(name) {
+            return false;
+        }
+        if self.seen.len() < NAMED {
+            self.seen.push(name.to_owned());
+        }
+        names::kind(name) != Kind::Other
     }
 
     /// Takes a file by its name. `depth` is the number of archives that it lies in.
@@ -183,7 +194,10 @@ impl Collector {
         let Some(first) = candidates.first() else {
             let mut reasons = std::mem::take(&mut self.bad_sources);
             reasons.append(&mut self.obstacles);
-            return Err(reasons.into_iter().next().unwrap_or(Refusal::MissingFile));
+            return Err(reasons
+                .into_iter()
+                .next()
+                .unwrap_or_else(|| Refusal::MissingFile(std::mem::take(&mut self.seen))));
         };
         let distinct: BTreeSet<String> = candidates.iter().map(|found| comparable(&found.bytes)).collect();
         let names = || candidates.iter().map(|found| found.name.clone()).collect();

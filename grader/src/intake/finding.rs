@@ -10,8 +10,8 @@ use crate::submission::FILE_NAME;
 /// terminal.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Refusal {
-    /// `missing-file`: there is no source in it.
-    MissingFile,
+    /// `missing-file`: there is no source in it, but maybe other files, of which some are named.
+    MissingFile(Vec<String>),
     /// `several-candidates`: there are several sources that are not the same.
     SeveralCandidates(Vec<String>),
     /// `too-large`: a source or an archive is larger than any that is meant seriously.
@@ -48,7 +48,7 @@ impl Refusal {
     /// The code, for tables and scripts.
     pub fn code(&self) -> &'static str {
         match self {
-            Self::MissingFile => "missing-file",
+            Self::MissingFile(_) => "missing-file",
             Self::SeveralCandidates(_) => "several-candidates",
             Self::TooLarge(..) => "too-large",
             Self::NotSource(_) => "not-source",
@@ -71,7 +71,11 @@ impl Refusal {
 impl std::fmt::Display for Refusal {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::MissingFile => write!(f, "there is no {FILE_NAME} in it"),
+            Self::MissingFile(others) if others.is_empty() => write!(f, "there is no {FILE_NAME} in it"),
+            Self::MissingFile(others) => {
+                let others: Vec<String> = others.iter().map(|name| harmless(name)).collect();
+                write!(f, "there is no {FILE_NAME} in it, but {}", others.join(", "))
+            }
             Self::SeveralCandidates(names) => {
                 let names: Vec<String> = names.iter().take(5).map(|name| harmless(name)).collect();
                 write!(

@@ -51,7 +51,7 @@ pub(super) fn collect(folder: &Path, collector: &mut Collector) -> Result<()> {
 }
 
 fn collect_file(path: &Path, name: &str, collector: &mut Collector) -> std::result::Result<(), Stop> {
-    if !Collector::wants(name) {
+    if !collector.wants(name) {
         return Ok(());
     }
     match File::open(path) {

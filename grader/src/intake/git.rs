@@ -58,7 +58,7 @@ pub(super) fn collect(
         let (Some(mode), Some("blob"), Some(object)) = (about.next(), about.next(), about.next()) else {
             continue;
         };
-        if !Collector::wants(name) {
+        if !collector.wants(name) {
             continue;
         }
         if mode == "120000" {

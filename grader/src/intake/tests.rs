@@ -132,6 +132,14 @@ fn what_cannot_be_graded_has_a_code() {
 }
 
 #[test]
+fn where_the_source_is_missing_is_said_what_there_is() {
+    let hand_in = take_folder(&[("src/main.rs", b"fn main() {}"), ("picture.png", b""), ("._x", b"")]);
+    let refusal = hand_in.outcome.expect_err("there is no source").to_string();
+    assert!(refusal.contains("main.rs") && refusal.contains("picture.png"), "{refusal}");
+    assert!(!refusal.contains("._x"), "{refusal}");
+}
+
+#[test]
 fn encrypted_archives_are_named() {
     let mut bytes = zip(&[("render_pt.rs", SOURCE.as_bytes())]);
     // The lowest bit of the flags says so, in the local header and in the directory.
