@@ -94,6 +94,11 @@ impl Workspace {
         self.variants().join("calibration.md")
     }
 
+    /// The plot that belongs to it.
+    pub fn calibration_plot(&self) -> PathBuf {
+        self.variants().join("calibration.svg")
+    }
+
     /// Where Cargo puts the framework that hand-ins are linked against, apart from all other builds.
     pub fn framework_target(&self) -> PathBuf {
         self.root.join("target/framework")

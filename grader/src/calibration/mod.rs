@@ -3,12 +3,17 @@
 //! Whole grades are dear: a thousand of them take an hour. So the statistics are calibrated alone as well: for each
 //! correct variant and each check by means, thousands of single samples of each pixel are [recorded](pool::Pool), heavy
 //! tails and all, and drawn from with replacement. In that world the true mean is known, that of the pool, and a grade
-//! costs a millisecond. A bias is put in by brightening all samples.
+//! costs a millisecond. A bias is put in by brightening all samples. Two simpler [tests](Test) are given the same samples,
+//! to see what ours saves; and all three are given those of wrong variants.
 
+mod fixed;
+mod plot;
 mod pool;
 mod results;
 mod table;
 
+pub use fixed::Test;
+pub use plot::svg;
 pub use pool::Pool;
 pub use results::{Counts, Line, Results};
 pub use table::table;
@@ -17,12 +22,18 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use crate::statistics::bias::Expected;
 use crate::statistics::regions::{Region, pyramid, weighted_image};
-use crate::statistics::sequential::{LOOKS, Question, judge};
+use crate::statistics::sequential::{CONFIRMATION_LEVEL, LOOKS, Question, judge};
+use fixed::Fixed;
+
+/// Samples of each pixel with which the false alarms of tests with a fixed number are counted.
+const FIXED_SAMPLES: u64 = 1024;
 
 /// A check by means whose statistics are tried.
 pub struct Trial<'a> {
     /// Recorded samples.
     pub pool: &'a Pool,
+    /// Recorded samples of a correct program: the same pool, unless a wrong one is judged.
+    pub truth: &'a Pool,
     /// The noise that the check expects; its means are not used.
     pub expected: &'a Expected,
     /// The relative error that a pass excludes.
@@ -32,11 +43,22 @@ pub struct Trial<'a> {
 }
 
 impl Trial<'_> {
-    /// Judges `count` grades drawn from the pool, with all samples `1 + bias` times as bright.
-    pub fn run(&self, count: u64, bias: f64, seed: u64) -> Counts {
+    /// Judges draws from the pool, with all samples `1 + bias` times as bright: `count` of them by our test and wherever
+    /// nothing is to be found, and as many as tell whether an error is found by the others.
+    pub fn run(&self, test: Test, count: u64, bias: f64, seed: u64) -> Counts {
+        let level = self.screening_level * CONFIRMATION_LEVEL;
+        let fixed = Fixed { test, pool: self.pool, bias, truth: self.truth, level, seed };
+        match test {
+            Test::Sequential => self.judge(count, bias, seed),
+            _ if bias == 0.0 && std::ptr::eq(self.pool, self.truth) => fixed.alarms(FIXED_SAMPLES, count),
+            _ => fixed.need(),
+        }
+    }
+
+    fn judge(&self, count: u64, bias: f64, seed: u64) -> Counts {
         let (width, height) = crate::reference::SIZE;
         let expected = Expected {
-            mean: self.pool.mean(),
+            mean: self.truth.mean(),
             error: vec![[0.0; 3]; self.expected.mean.len()],
             ..self.expected.clone()
         };

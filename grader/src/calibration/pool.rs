@@ -1,19 +1,22 @@
 //! Recorded samples to draw from.
 
+use std::time::Instant;
+
 use arty::integrator::Settings;
 use arty::sampler::{Sampler, batch_seed};
 use arty::scene::SceneDescription;
 use host::protocol::{RenderJob, Switches};
 
 use crate::build::HandInProgram;
-use crate::error::{Error, Result};
-use crate::host_process::HostProcess;
+use crate::error::Result;
+use crate::host_process::{Fault, HostProcess};
 use crate::reference::SIZE;
 use crate::statistics::sequential::Demand;
 
 /// Images of one sample each.
 pub struct Pool {
     images: Vec<Vec<[f32; 3]>>,
+    seconds_per_path: f64,
 }
 
 /// Images that one job asks for.
@@ -23,7 +26,7 @@ impl Pool {
     /// Renders `count` images of one sample.
     ///
     /// # Errors
-    /// If the program is not as correct as it is said to be: it must not crash.
+    /// The outer error is the harness's, the inner one the program's.
     pub fn record(
         program: &HandInProgram,
         scene: &SceneDescription,
@@ -32,11 +35,14 @@ impl Pool {
         count: u64,
         threads: usize,
         seed: u64,
-    ) -> Result<Self> {
-        let faulty = |fault| Error::Harness(format!("a correct variant: {fault}"));
+    ) -> Result<std::result::Result<Self, Fault>> {
         let mut process = HostProcess::start(program, threads)?;
-        let scene = process.load(scene)?.map_err(faulty)?;
+        let scene = match process.load(scene)? {
+            Ok(scene) => scene,
+            Err(fault) => return Ok(Err(fault)),
+        };
         let mut images = Vec::new();
+        let start = Instant::now();
         for first in (0..count).step_by(PER_JOB as usize) {
             let seeds = (first..count.min(first + PER_JOB)).map(|batch| batch_seed(seed, batch)).collect();
             let job = RenderJob {
@@ -49,9 +55,25 @@ impl Pool {
                 samples: 1,
                 switches,
             };
-            images.extend(process.render(&job)?.map_err(faulty)?.batches);
+            match process.render(&job)? {
+                Ok(rendered) => images.extend(rendered.batches),
+                Err(fault) => return Ok(Err(fault)),
+            }
         }
-        Ok(Self { images })
+        let paths = images.len() as f64 * f64::from(SIZE.0 * SIZE.1);
+        let seconds_per_path = start.elapsed().as_secs_f64() * threads as f64 / paths.max(1.0);
+        Ok(Ok(Self { images, seconds_per_path }))
+    }
+
+    /// Images that were made elsewhere.
+    #[cfg(test)]
+    pub(super) fn of(images: Vec<Vec<[f32; 3]>>) -> Self {
+        Self { images, seconds_per_path: 0.0 }
+    }
+
+    /// Processor time of one path, in seconds, as it was while recording.
+    pub fn seconds_per_path(&self) -> f64 {
+        self.seconds_per_path
     }
 
     /// The mean of each pixel: the truth for everything that is drawn from the pool.
@@ -94,7 +116,7 @@ mod tests {
     #[test]
     fn what_is_drawn_has_the_mean_of_the_pool() {
         let images = (0..100).map(|i| vec![[i as f32, 2.0, 0.0]]).collect();
-        let pool = Pool { images };
+        let pool = Pool::of(images);
         assert_eq!(pool.mean(), [[49.5, 2.0, 0.0]]);
         let demand = Demand { seeds: vec![1, 2], first_sample: 0, samples: 10_000 };
         let drawn = pool.draw(&demand, 0.01);

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use super::Test;
 use crate::error::{Error, Result};
 use crate::statistics::sequential::Decision;
 
@@ -51,10 +52,28 @@ pub struct Line {
     pub variant: String,
     /// The check.
     pub check: String,
+    /// Which test judged.
+    #[serde(default)]
+    pub test: Test,
     /// How much too bright all samples were made.
     pub bias: f64,
     /// What came out.
     pub counts: Counts,
+    /// Processor time of a path, in seconds.
+    #[serde(default)]
+    pub seconds_per_path: f64,
+}
+
+impl Line {
+    /// Processor time of one judgement, in seconds.
+    pub(super) fn seconds(&self) -> f64 {
+        self.counts.samples as f64 / self.counts.grades.max(1) as f64 * self.seconds_per_path
+    }
+
+    /// True if what was to be found was found in 19 of 20 draws.
+    pub(super) fn found(&self) -> bool {
+        self.counts.grades > 0 && 20 * self.counts.biased >= 19 * self.counts.grades
+    }
 }
 
 /// A file of results, a JSON object a line.
@@ -82,9 +101,10 @@ impl Results {
     }
 
     /// The result that is there already.
-    pub fn find(&self, key: &str, variant: &str, check: &str, bias: f64) -> Option<&Line> {
+    pub fn find(&self, key: &str, variant: &str, check: &str, test: Test, bias: f64) -> Option<&Line> {
+        let wanted = (key, variant, check, test, bias);
         self.lines.iter().find(|line| {
-            line.key == key && line.variant == variant && line.check == check && line.bias == bias
+            (line.key.as_str(), line.variant.as_str(), line.check.as_str(), line.test, line.bias) == wanted
         })
     }
 

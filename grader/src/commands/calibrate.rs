@@ -10,10 +10,11 @@ use indicatif::ProgressBar;
 
 use super::assignment::Assignment;
 use crate::build::{Framework, HandInProgram, compile};
-use crate::calibration::{Line, Pool, Results, Trial, table};
+use crate::calibration::{Line, Pool, Results, Test, Trial, svg, table};
 use crate::checks::JudgedScene;
 use crate::error::{Error, Result};
 use crate::grade::Options;
+use crate::host_process::Fault;
 use crate::mutants::{Kind, Ledger, Record, Variant, hash_of_inputs, variants};
 use crate::rubric::{CheckKind, CheckSpec, Hits, Rubric};
 use crate::sandbox::Limits;
@@ -29,6 +30,10 @@ pub(super) struct Arguments {
     /// Simulated grades for each bias, of the solution
     #[arg(long, value_name = "N", default_value_t = 200)]
     power: u64,
+    /// Simulated grades of each wrong variant in each check of the tasks that it costs, and draws without an error for
+    /// the simpler tests; 0 leaves the comparison with these out
+    #[arg(long, value_name = "N", default_value_t = 20)]
+    rivals: u64,
     /// Whole grades, of the correct variants in turn
     #[arg(long, value_name = "N", default_value_t = 1000)]
     grades: u64,
@@ -51,17 +56,17 @@ pub(super) struct Arguments {
 /// How much too bright samples are made, to see whether that is found.
 const BIASES: [f64; 4] = [0.005, 0.01, 0.02, 0.05];
 
+/// The checks that judge one picture by its mean.
+const BY_MEANS: [CheckKind; 3] = [CheckKind::MeanBias, CheckKind::ClosedForm, CheckKind::WhiteFurnace];
+
 /// The seed of all recorded samples and draws.
 const SEED: u64 = 1;
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let rubric = arguments.assignment.rubric(&workspace)?;
-    let right: Vec<Variant> = variants(&workspace, &rubric)?
-        .list
-        .into_iter()
-        .filter(|variant| variant.kind == Kind::Right)
-        .collect();
+    let (right, wrong): (Vec<Variant>, Vec<Variant>) =
+        variants(&workspace, &rubric)?.list.into_iter().partition(|variant| variant.kind == Kind::Right);
     let folder = arguments.out.clone().unwrap_or_else(|| workspace.root().join("target/calibration"));
     let mut calibration = Calibration {
         arguments,
@@ -75,13 +80,23 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         workspace: &workspace,
         rubric: &rubric,
         right: &right,
+        wrong: &wrong,
+        framework: Framework::build(&workspace)?,
+        scenes: BTreeMap::new(),
     };
     calibration.resample()?;
+    calibration.compare()?;
     calibration.grade()?;
-    let text = calibration.table();
-    let file = workspace.calibration_table();
-    arty::image::write_aside(&file, |writer| std::io::Write::write_all(writer, text.as_bytes()))?;
-    eprintln!("table: {}", file.display());
+    let (text, plot) = calibration.table();
+    let write = |file: PathBuf, text: String| -> Result<()> {
+        arty::image::write_aside(&file, |writer| std::io::Write::write_all(writer, text.as_bytes()))?;
+        eprintln!("written: {}", file.display());
+        Ok(())
+    };
+    write(workspace.calibration_table(), text)?;
+    if let Some(plot) = plot {
+        write(workspace.calibration_plot(), plot)?;
+    }
     Ok(ExitCode::SUCCESS)
 }
 
@@ -90,6 +105,9 @@ struct Calibration<'a> {
     workspace: &'a Workspace,
     rubric: &'a Rubric,
     right: &'a [Variant],
+    wrong: &'a [Variant],
+    framework: Framework,
+    scenes: BTreeMap<String, JudgedScene>,
     key: String,
     threads: usize,
     results: Results,
@@ -104,43 +122,31 @@ impl Calibration<'_> {
 
     /// The checks of the rubric that judge one picture by its mean.
     fn checks(&self) -> Vec<&CheckSpec> {
-        let by_means = [CheckKind::MeanBias, CheckKind::ClosedForm, CheckKind::WhiteFurnace];
-        self.rubric.checks().map(|(_, spec)| spec).filter(|spec| by_means.contains(&spec.check)).collect()
+        self.rubric.checks().map(|(_, spec)| spec).filter(|spec| BY_MEANS.contains(&spec.check)).collect()
     }
 
     /// The statistics alone.
     fn resample(&mut self) -> Result<()> {
-        let framework = Framework::build(self.workspace)?;
         let checks: Vec<CheckSpec> = self.checks().into_iter().cloned().collect();
         let share = self.arguments.resampled.div_ceil(self.right.len().max(1) as u64);
-        let bar = ProgressBar::new((checks.len() * self.right.len()) as u64);
-        let mut scenes = BTreeMap::new();
+        let bar = ProgressBar::new((checks.len() * self.right.len()) as u64).with_message("resampling");
+        let rivals = self.arguments.rivals;
         for (number, variant) in self.right.iter().enumerate() {
-            let program = match compile(&framework, &variant.source, &Limits::default())? {
-                Ok(program) => program,
-                Err(failure) => return Err(Error::Harness(format!("{}: {}", variant.id, failure.messages))),
-            };
+            let program = self.compile(variant)?;
             for spec in &checks {
+                let mut wanted = vec![(Test::Sequential, 0.0, share)];
+                if number == 0 {
+                    wanted.extend(BIASES.map(|bias| (Test::Sequential, bias, self.arguments.power)));
+                    for test in [Test::Welch, Test::Pixels] {
+                        wanted.extend([0.0, 0.01, 0.02, 0.05].map(|bias| (test, bias, rivals)));
+                    }
+                }
                 if self.is_over() {
                     return Ok(());
                 }
-                let mut wanted = vec![(0.0, share)];
-                if number == 0 {
-                    wanted.extend(BIASES.map(|bias| (bias, self.arguments.power)));
-                }
-                wanted.retain(|&(bias, count)| {
-                    let known = self.results.find(&self.key, &variant.id, &spec.id(), bias);
-                    count > 0 && known.is_none_or(|line| line.counts.grades < count)
-                });
-                if !wanted.is_empty() {
-                    let judged = match scenes.entry(spec.scene.clone()) {
-                        std::collections::btree_map::Entry::Occupied(entry) => entry.into_mut(),
-                        std::collections::btree_map::Entry::Vacant(entry) => {
-                            entry.insert(crate::grade::load_scene(self.workspace, &spec.scene)?)
-                        }
-                    };
-                    self.try_check(&program, variant, spec, judged, &wanted)?;
-                }
+                self.try_check(variant, spec, &wanted, |recorder| {
+                    Ok(Some((recorder.correct(&program)?, None)))
+                })?;
                 bar.inc(1);
             }
         }
@@ -148,29 +154,81 @@ impl Calibration<'_> {
         Ok(())
     }
 
+    /// All tests on wrong variants, in the checks of the tasks that these cost.
+    fn compare(&mut self) -> Result<()> {
+        let Some(solution) = self.right.first() else { return Ok(()) };
+        let solution = self.compile(solution)?;
+        let bar = ProgressBar::new(self.wrong.len() as u64).with_message("wrong variants");
+        for variant in self.wrong {
+            let program = self.compile(variant)?;
+            let of_lost: Vec<CheckSpec> = self
+                .rubric
+                .tasks
+                .iter()
+                .filter(|task| variant.costs.contains(&task.id))
+                .flat_map(|task| &task.checks)
+                .filter(|spec| BY_MEANS.contains(&spec.check))
+                .cloned()
+                .collect();
+            for spec in &of_lost {
+                if self.is_over() {
+                    return Ok(());
+                }
+                let wanted = Test::ALL.map(|test| (test, 0.0, self.arguments.rivals));
+                self.try_check(variant, spec, &wanted, |recorder| {
+                    // What does not even render is found by that, whatever the test.
+                    let Ok(pool) = recorder.record(&program)? else { return Ok(None) };
+                    Ok(Some((pool, Some(recorder.correct(&solution)?))))
+                })?;
+            }
+            bar.inc(1);
+        }
+        bar.finish_and_clear();
+        Ok(())
+    }
+
+    fn compile(&self, variant: &Variant) -> Result<HandInProgram> {
+        compile(&self.framework, &variant.source, &Limits::default())?
+            .map_err(|failure| Error::Harness(format!("{}: {}", variant.id, failure.messages)))
+    }
+
+    /// Whatever is wanted of one check and not yet known. `record` gives the samples that are judged and, where they are
+    /// wrong, right ones; nothing if there are none.
     fn try_check(
         &mut self,
-        program: &HandInProgram,
         variant: &Variant,
         spec: &CheckSpec,
-        judged: &JudgedScene,
-        wanted: &[(f64, u64)],
+        wanted: &[(Test, f64, u64)],
+        record: impl FnOnce(&Recorder<'_>) -> Result<Option<(Pool, Option<Pool>)>>,
     ) -> Result<()> {
-        let settings = Settings { technique: spec.technique, max_bounces: spec.max_bounces };
-        let switches = Switches { hits_off: spec.hits == Hits::Off, ..Switches::default() };
-        let count = self.arguments.pool;
-        let pool = Pool::record(program, &judged.description, settings, switches, count, self.threads, SEED)?;
+        let mut wanted = wanted.to_vec();
+        wanted.retain(|&(test, bias, count)| {
+            let known = self.results.find(&self.key, &variant.id, &spec.id(), test, bias);
+            count > 0 && known.is_none_or(|line| test == Test::Sequential && line.counts.grades < count)
+        });
+        if wanted.is_empty() {
+            return Ok(());
+        }
+        if !self.scenes.contains_key(&spec.scene) {
+            let scene = crate::grade::load_scene(self.workspace, &spec.scene)?;
+            self.scenes.insert(spec.scene.clone(), scene);
+        }
+        let judged = &self.scenes[&spec.scene];
+        let recorder = Recorder { judged, spec, count: self.arguments.pool, threads: self.threads };
+        let Some((pool, truth)) = record(&recorder)? else { return Ok(()) };
         let expected = crate::checks::expected_by_reference(spec, &judged.reference)?;
         let trial = Trial {
             pool: &pool,
+            truth: truth.as_ref().unwrap_or(&pool),
             expected: &expected,
             tolerance: spec.tolerance,
             screening_level: SCREENING_LEVEL / self.rubric.checks().count() as f64,
         };
-        for &(bias, count) in wanted {
-            let counts = trial.run(count, bias, SEED);
+        for (test, bias, count) in wanted {
+            let counts = trial.run(test, count, bias, SEED);
             let (key, variant, check) = (self.key.clone(), variant.id.clone(), spec.id());
-            self.results.add(Line { key, variant, check, bias, counts })?;
+            let seconds_per_path = pool.seconds_per_path();
+            self.results.add(Line { key, variant, check, test, bias, counts, seconds_per_path })?;
         }
         Ok(())
     }
@@ -200,12 +258,38 @@ impl Calibration<'_> {
         Ok(())
     }
 
-    fn table(&self) -> String {
+    fn table(&self) -> (String, Option<String>) {
         let lines: Vec<&Line> = self.results.of(&self.key).collect();
         let mut checks: Vec<String> = self.checks().iter().map(|spec| spec.id()).collect();
         checks.dedup();
+        let wrong: Vec<String> = self.wrong.iter().map(|variant| variant.id.clone()).collect();
+        let of_wrong: Vec<&Line> =
+            lines.iter().copied().filter(|line| wrong.contains(&line.variant)).collect();
         let grades: BTreeMap<String, Vec<&Record>> =
             self.right.iter().map(|variant| (variant.id.clone(), self.ledger.records(variant))).collect();
-        table(&lines, &checks, &grades)
+        (table(&lines, &wrong, &checks, &grades), svg(&of_wrong, &wrong))
+    }
+}
+
+/// Records samples for one check.
+struct Recorder<'a> {
+    judged: &'a JudgedScene,
+    spec: &'a CheckSpec,
+    count: u64,
+    threads: usize,
+}
+
+impl Recorder<'_> {
+    /// Of a program that may do anything.
+    fn record(&self, program: &HandInProgram) -> Result<std::result::Result<Pool, Fault>> {
+        let Self { judged, spec, count, threads } = *self;
+        let settings = Settings { technique: spec.technique, max_bounces: spec.max_bounces };
+        let switches = Switches { hits_off: spec.hits == Hits::Off, ..Switches::default() };
+        Pool::record(program, &judged.description, settings, switches, count, threads, SEED)
+    }
+
+    /// Of one that must not fail.
+    fn correct(&self, program: &HandInProgram) -> Result<Pool> {
+        self.record(program)?.map_err(|fault| Error::Harness(format!("a correct variant: {fault}")))
     }
 }

@@ -8,6 +8,11 @@ use super::bias::Expected;
 /// Rec. 709 weights: a fourth channel beside red, green and blue.
 const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
+/// The luminance of a linear colour.
+pub fn luminance(values: &[f64; 3]) -> f64 {
+    (0..3).map(|channel| LUMINANCE[channel] * values[channel]).sum()
+}
+
 /// The levels of the pyramid: 1, 4, 16 and 64 tiles.
 pub const LEVELS: u32 = 4;
 
@@ -68,7 +73,6 @@ pub fn pyramid(width: u32, height: u32) -> Vec<Region> {
 /// one sample, a weight on its ratio to m of 1/r². Here it is 1/(r² + r̄²), with the median r̄², so that no pixel
 /// that hardly has any noise outweighs all others.
 pub fn weighted_image(expected: &Expected) -> Region {
-    let luminance = |values: &[f64; 3]| -> f64 { (0..3).map(|c| LUMINANCE[c] * values[c]).sum() };
     let means: Vec<f64> = expected.mean.iter().map(luminance).collect();
     let relative_variance = |(deviation, &mean): (&[f64; 3], &f64)| {
         if mean > 0.0 { (luminance(deviation) / mean).powi(2) } else { 0.0 }
