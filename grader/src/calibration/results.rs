@@ -65,9 +65,14 @@ pub struct Line {
 }
 
 impl Line {
+    /// Paths of one judgement.
+    pub(super) fn paths(&self) -> f64 {
+        self.counts.samples as f64 / self.counts.grades.max(1) as f64
+    }
+
     /// Processor time of one judgement, in seconds.
     pub(super) fn seconds(&self) -> f64 {
-        self.counts.samples as f64 / self.counts.grades.max(1) as f64 * self.seconds_per_path
+        self.paths() * self.seconds_per_path
     }
 
     /// True if what was to be found was found in 19 of 20 draws.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use super::plot::times;
+use super::plot::{MADE_FOR, times};
 use super::{Counts, Line, Test};
 use crate::mutants::Record;
 
@@ -15,8 +15,7 @@ pub fn table(
     checks: &[String],
     grades: &BTreeMap<String, Vec<&Record>>,
 ) -> String {
-    let (of_wrong, of_right): (Vec<&Line>, Vec<&Line>) =
-        lines.iter().copied().partition(|line| wrong.contains(&line.variant));
+    let of_right: Vec<&Line> = lines.iter().copied().filter(|line| !wrong.contains(&line.variant)).collect();
     let ours: Vec<&Line> = of_right.iter().copied().filter(|line| line.test == Test::Sequential).collect();
     let mut text = String::from(
         "# How often correct hand-ins fail, and how small an error is found\n\nMade by `cargo grader calibrate`; do \
@@ -26,7 +25,7 @@ pub fn table(
     power(&mut text, &ours, checks);
     whole_grades(&mut text, grades);
     cost_of_bias(&mut text, &of_right, checks);
-    cost_of_mistakes(&mut text, &of_wrong, wrong);
+    cost_of_mistakes(&mut text, lines, wrong);
     text
 }
 
@@ -173,8 +172,10 @@ fn cost_of_mistakes(text: &mut String, lines: &[&Line], wrong: &[String]) {
         text,
         format_args!(
             "\n## What simpler tests need to find the wrong variants\n\nMilliseconds of one core, in the check by means that \
-             finds it first. What is unbiased has no time: other checks find that. Of {} wrong variants {} are found, in {} ms \
+             finds it first; the fixed numbers of samples are those that find an error of {:.0} % in the solution's samples, or more \
+             where that takes more. What is unbiased has no time: other checks find that. Of {} wrong variants {} are found, in {} ms \
              in the median. As a plot: `calibration.svg`.\n\n| variant | {} |\n|---|{}",
+            100.0 * MADE_FOR,
             wrong.len(),
             found.each_ref().map(|times| times.len().to_string()).join(" / "),
             found.each_ref().map(middle).join(" / "),
