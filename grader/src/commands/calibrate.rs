@@ -263,11 +263,9 @@ impl Calibration<'_> {
         let mut checks: Vec<String> = self.checks().iter().map(|spec| spec.id()).collect();
         checks.dedup();
         let wrong: Vec<String> = self.wrong.iter().map(|variant| variant.id.clone()).collect();
-        let of_wrong: Vec<&Line> =
-            lines.iter().copied().filter(|line| wrong.contains(&line.variant)).collect();
         let grades: BTreeMap<String, Vec<&Record>> =
             self.right.iter().map(|variant| (variant.id.clone(), self.ledger.records(variant))).collect();
-        (table(&lines, &wrong, &checks, &grades), svg(&of_wrong, &wrong))
+        (table(&lines, &wrong, &checks, &grades), svg(&lines, &wrong))
     }
 }
 
