@@ -14,7 +14,7 @@ use crate::export::Export;
 use crate::grade::{Grader, Options};
 use crate::intake::{self, Finding, HandIn, Refusal};
 use crate::marks::Marks;
-use crate::report::{Progress, print_sum, print_summary};
+use crate::report::{Progress, print_sum, print_summary, remove_pages};
 use crate::submission::Submission;
 use crate::workspace::Workspace;
 
@@ -76,7 +76,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let file = arguments.out.join("report.json");
     std::fs::create_dir_all(&arguments.out).map_err(|error| Error::file(&arguments.out, error))?;
     check_writable(&file)?;
-    full_report::remove_page(&file)?;
+    remove_pages(&file)?;
     for export in &arguments.export {
         export.target(&arguments.out).map_or(Ok(()), |file| check_writable(&file))?;
     }

@@ -28,6 +28,7 @@ pub use brief::brief;
 pub use export::{save_csv, save_json};
 pub use measure::{Contestant, Options, measure};
 pub use plot::svg;
+pub(crate) use plot::{GRID, INK, OTHER, PAPER, SUBMISSION};
 pub use table::{print_sentences, print_table, sentences};
 
 /// The scenes that tell most: diffuse with a small light, glossy with a large one, both at once, very many lights.
