@@ -15,13 +15,22 @@ use crate::report::{Edition, Report, for_student};
 pub fn write_pages(report: &Report, pictures: &[Picture], file: &Path, path: Option<&str>) -> Result<()> {
     let (student, edition) = for_student(report, path)?;
     let [for_students, for_tutors] = pages_beside(file);
-    for (target, text) in [
-        (for_students, page(&student, pictures, edition)),
-        (for_tutors, page(report, pictures, Edition::Tutor)),
-    ] {
+    for (target, report, edition) in [(for_students, &student, edition), (for_tutors, report, Edition::Tutor)]
+    {
+        let text = small_enough(report, pictures, edition);
         arty::image::write_aside(&target, |writer| std::io::Write::write_all(writer, text.as_bytes()))?;
     }
     Ok(())
+}
+
+/// The most bytes of a page: it is sent by mail, and kept for everybody.
+const LARGEST: usize = 3_000_000;
+
+/// The page, without its last pictures if it would be too large with them.
+fn small_enough(report: &Report, pictures: &[Picture], edition: Edition) -> String {
+    let shown = |count: usize| page(report, &pictures[..count], edition);
+    let sizes = (1..=pictures.len()).rev();
+    sizes.map(shown).find(|text| text.len() <= LARGEST).unwrap_or_else(|| shown(0))
 }
 
 /// Removes the pages of an earlier grade, which would lie beside the report of another, and their pictures.

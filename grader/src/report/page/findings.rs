@@ -10,7 +10,7 @@ use crate::rubric::CheckKind;
 pub(super) fn tasks(report: &Report) -> Markup {
     html! {
         h2 { "Points" }
-        div.scroll { table {
+        div.scroll { table.cards {
             thead { tr { th { "task" } th { "" } th.number { "points" } th { "what is wrong, and what to do next" } } }
             tbody {
                 @for task in &report.tasks {
@@ -29,7 +29,7 @@ pub(super) fn tasks(report: &Report) -> Markup {
 fn advice(task: &TaskResult, report: &Report) -> Markup {
     let mut of_task = report.checks.iter().filter(|check| check.task == task.id);
     let Some(wrong) = of_task.find(|check| check.verdict != Verdict::Pass) else {
-        return html! { @if task.reason.is_empty() { "nothing" } @else { (task.reason) } };
+        return html! { @if task.reason.is_empty() { "nothing is missing" } @else { (task.reason) } };
     };
     html! {
         (wrong.explanation) "."
@@ -66,31 +66,36 @@ pub(super) fn diagnosis(report: &Report) -> Markup {
     }
 }
 
-/// All checks, those of a task that has points missing unfolded.
+/// All checks of each task. Those that did not pass are unfolded.
 pub(super) fn checks(report: &Report, edition: Edition) -> Markup {
     html! {
         @if !report.checks.is_empty() { h2 { "Checks" } }
         @for task in &report.tasks {
-            @let of_task: Vec<&CheckResult> = report.checks.iter().filter(|check| check.task == task.id).collect();
-            @let passed = of_task.iter().filter(|check| check.verdict == Verdict::Pass).count();
-            @if !of_task.is_empty() {
-                details open[passed < of_task.len()] {
-                    summary { (task.id) " " (task.title) ": " (passed) " of " (of_task.len()) " passed" }
-                    div.scroll { table {
-                        thead { tr {
-                            th { "check" } th { "verdict" } th { "why" } th.number { "effect" } th.number { "99 % interval" }
-                            th.number title="the smallest error of the whole picture that would have been found" { "detectable" }
-                            th.number { "samples" } th.number { "seconds" }
-                        } }
-                        tbody { @for check in of_task { (row(check)) } }
-                    } }
-                }
+            @let of_task = report.checks.iter().filter(|check| check.task == task.id);
+            @let (passed, wrong): (Vec<&CheckResult>, Vec<&CheckResult>) = of_task.partition(|check| check.verdict == Verdict::Pass);
+            @if passed.len() + wrong.len() > 0 {
+                h3 { (task.id) " " (task.title) ": " (passed.len()) " of " (passed.len() + wrong.len()) " passed" }
+                @if !wrong.is_empty() { (table(&wrong)) }
+                @if !passed.is_empty() { details { summary { "what passed" } (table(&passed)) } }
             }
         }
         @if let Edition::Student { concealed, passed } = edition && concealed > 0 {
             p { (concealed) " checks are not shown, in scenes that are not handed out; " (passed) " of them passed. They hold a \
                 hand-in to nothing that the others do not: what is right in every scene passes them." }
         }
+    }
+}
+
+fn table(checks: &[&CheckResult]) -> Markup {
+    html! {
+        div.scroll { table.cards {
+            thead { tr {
+                th { "check" } th { "verdict" } th { "why" } th.number { "effect" } th.number { "99 % interval" }
+                th.number title="the smallest error of the whole picture that would have been found" { "detectable" }
+                th.number { "samples" } th.number { "seconds" }
+            } }
+            tbody { @for check in checks { (row(check)) } }
+        } }
     }
 }
 
@@ -133,27 +138,40 @@ fn row(check: &CheckResult) -> Markup {
     html! {
         tr {
             td.name {
-                (check.id)
+                (breakable(&check.id))
                 @if check.evidence { br; span.soft { "no points without it" } }
             }
             td class=(class) { (word) }
             td {
                 (check.explanation)
-                br; span.soft { "This check " (about(check.check)) "." }
                 @if !check.variance_ratios.is_empty() {
                     br; span.soft { "variance, relative to the solution's: "
                         (check.variance_ratios.iter().map(|it| format!("{} {:.2}", it.technique, it.ratio)).collect::<Vec<_>>().join(", ")) }
                 }
                 @for remark in &check.remarks { br; span.soft { "Remark: " (remark) } }
-                details.again { summary { "again" } code { (check.repeat) } }
+                details.again {
+                    summary { "what is looked at, and how to see it again" }
+                    p.soft { "It " (about(check.check)) "." }
+                    code { (check.repeat) }
+                }
             }
-            td.number { @if let Some(effect) = check.effect { (percent(effect)) } }
-            td.number { @if let Some([low, high]) = check.interval { (percent(low)) br; (percent(high)) } }
-            td.number { @if let Some(detectable) = check.detectable { (format!("{:.2} %", 100.0 * detectable)) } }
-            td.number { (check.samples) }
-            td.number { (format!("{:.2}", check.seconds)) }
+            (number("effect", check.effect.map(percent)))
+            (number("99 % interval", check.interval.map(|[low, high]| format!("{} to {}", percent(low), percent(high)))))
+            (number("detectable", check.detectable.map(|detectable| format!("{:.2} %", 100.0 * detectable))))
+            (number("samples", Some(check.samples.to_string())))
+            (number("seconds", Some(format!("{:.2}", check.seconds))))
         }
     }
+}
+
+/// A cell with a number; its label is shown where the table is too narrow for a head.
+fn number(label: &str, text: Option<String>) -> Markup {
+    html! { td.number data-label=[text.is_some().then_some(label)] { (text.unwrap_or_default()) } }
+}
+
+/// A name that may be broken after its slashes.
+fn breakable(name: &str) -> Markup {
+    html! { @for part in name.split_inclusive('/') { (part) wbr; } }
 }
 
 pub(super) fn left_out(report: &Report) -> Markup {

@@ -114,7 +114,8 @@ fn p_values(report: &Report) -> Markup {
             true,
             "In checks that passed",
             "Were every tile right, each bar would be as high as the line, but for chance: nineteen \
-            of twenty bars end between the dashed lines. A high bar on the left is tiles that are off by more than chance.",
+            of twenty bars end between the dashed lines. A high bar on the left is tiles that are off by more than chance. \
+            Low bars there are caution: noise that is not well known is taken to be larger.",
         ),
         (
             false,

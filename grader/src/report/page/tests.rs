@@ -60,3 +60,19 @@ fn plots_are_there_where_there_are_numbers() {
     report.checks[0].weights = None;
     assert!(!page(&report, &[], Edition::Tutor).contains("<svg"));
 }
+
+#[test]
+fn a_page_that_would_be_too_large_has_fewer_pictures() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("report.json");
+    let mut large = picture("large");
+    large.reference = vec![0; 600_000];
+    write_pages(&report("open"), &[picture("small"), large.clone(), large], &file, None)
+        .expect("it can be written");
+    let text = std::fs::read_to_string(&pages_beside(&file)[1]).expect("it is there");
+    assert!(
+        text.len() < 3_000_000 && text.matches("<figure class=\"pictures\"").count() == 2,
+        "{}",
+        text.len()
+    );
+}

@@ -40,6 +40,7 @@ fn draw<'a>(histogram: &Bars<'_>, most: f64, area: &super::Area<'a>) -> Result<(
         .axis_style(INK)
         .x_labels(6)
         .y_labels(5)
+        .y_label_formatter(&|count| format!("{count:.0}"))
         .x_desc(axis)
         .label_style(font(12))
         .axis_desc_style(font(13))
