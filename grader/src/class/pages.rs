@@ -12,6 +12,9 @@ use crate::report::{Report, remove_pages, write_pages};
 use crate::submission::Submission;
 use crate::workspace::Workspace;
 
+/// Scenes of which pages have pictures: fewer than when one hand-in is graded, since those of a class take megabytes each.
+const SCENES: usize = 2;
+
 /// Renders pictures of a hand-in that has just been graded, and keeps them and a small one.
 pub(super) fn render(
     workspace: &Workspace,
@@ -22,7 +25,7 @@ pub(super) fn render(
 ) -> Result<()> {
     let options = grader.options();
     let shown = match compile(grader.framework(), &submission.source, &options.limits)? {
-        Ok(hand_in) => pictures(workspace, &hand_in, report, options.threads, options.seed)?,
+        Ok(hand_in) => pictures(workspace, &hand_in, report, options.threads, options.seed, SCENES)?,
         Err(_) => Vec::new(),
     };
     save(&shown, &shelf.pictures())?;

@@ -46,7 +46,7 @@ pub struct Record {
     #[serde(default)]
     pub mistake: Option<String>,
     /// Time for a given noise: the variance of multiple importance sampling relative to the solution's × seconds for a
-    /// sample, as the geometric mean over the scenes of the check `efficiency`. None unless all of them passed.
+    /// sample, as the geometric mean over the scenes of the check `efficiency`. None unless the means are right.
     #[serde(default)]
     pub work: Option<f64>,
     /// BLAKE3 of `report.json`; empty if there is none.
@@ -96,6 +96,10 @@ fn work(report: &Report) -> Option<f64> {
     let looked_at = |check: &&CheckResult| {
         check.check == CheckKind::Efficiency && check.technique == Technique::Mis && check.samples > 0
     };
+    // What leaves light out has little noise.
+    if report.checks.iter().any(|check| check.technique == Technique::Mis && check.verdict == Verdict::Fail) {
+        return None;
+    }
     let logs: Vec<f64> = report
         .checks
         .iter()

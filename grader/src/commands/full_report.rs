@@ -6,7 +6,7 @@ use crate::build::compile;
 use crate::convergence::{brief, print_sentences};
 use crate::error::Result;
 use crate::grade::{Grader, Options};
-use crate::report::pictures::{pictures, save};
+use crate::report::pictures::{MOST, pictures, save};
 use crate::report::{Picture, Report, pictures_beside, write_pages};
 use crate::submission::Submission;
 use crate::workspace::Workspace;
@@ -28,7 +28,7 @@ pub(super) fn complete(
             println!("\nError against run time, for no points");
             print_sentences(&convergence);
             report.convergence = Some(convergence);
-            shown = pictures(workspace, &hand_in, report, *threads, *seed)?;
+            shown = pictures(workspace, &hand_in, report, *threads, *seed, MOST)?;
             report.images = shown.iter().flat_map(Picture::errors).collect();
         }
     }

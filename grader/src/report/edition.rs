@@ -68,7 +68,16 @@ pub fn for_student(report: &Report, path: Option<&str>) -> Result<(Report, Editi
     replacements.sort_by_key(|(name, _)| std::cmp::Reverse(name.len()));
     let trouble = |error: serde_json::Error| Error::Harness(format!("the student's edition: {error}"));
     let mut value = serde_json::to_value(&student).map_err(trouble)?;
-    replace(&mut value, &replacements);
+    replace(&mut value, &|text| {
+        for (name, instead) in &replacements {
+            if text.contains(name.as_str()) {
+                *text = text.replace(name.as_str(), instead);
+            }
+        }
+        if path.is_some() {
+            name_assignment(text, &report.assignment);
+        }
+    });
     Ok((serde_json::from_value(value).map_err(trouble)?, edition))
 }
 
@@ -101,18 +110,22 @@ fn names(report: &Report, hidden: &[&CheckResult]) -> BTreeSet<String> {
 }
 
 /// Replaces in all texts; keys are the format's own but in provenance, where they are the grader's.
-fn replace(value: &mut Value, replacements: &[(String, &str)]) {
+fn replace(value: &mut Value, change: &dyn Fn(&mut String)) {
     match value {
-        Value::String(text) => {
-            for (name, instead) in replacements {
-                if text.contains(name.as_str()) {
-                    *text = text.replace(name.as_str(), instead);
-                }
-            }
-        }
-        Value::Array(list) => list.iter_mut().for_each(|value| replace(value, replacements)),
-        Value::Object(map) => map.values_mut().for_each(|value| replace(value, replacements)),
+        Value::String(text) => change(text),
+        Value::Array(list) => list.iter_mut().for_each(|value| replace(value, change)),
+        Value::Object(map) => map.values_mut().for_each(|value| replace(value, change)),
         _ => {}
+    }
+}
+
+/// Has a command name the assignment, where it names a folder of the staff's machine with the rubric in it.
+fn name_assignment(text: &mut String, assignment: &str) {
+    const OPTION: &str = "--assignment=";
+    let Some(start) = text.find(OPTION).map(|place| place + OPTION.len()) else { return };
+    let end = text[start..].find(" --").map_or(text.len(), |length| start + length);
+    if text[start..end].contains(['/', '\\']) {
+        text.replace_range(start..end, assignment);
     }
 }
 
@@ -180,9 +193,11 @@ mod tests {
     fn a_path_of_the_staff_stays_with_the_staff() {
         let mut report = report("open");
         report.submission.path = "hand ins/Ann B_12/render_pt.rs".to_owned();
-        report.checks[0].repeat = "cargo grade 'hand ins/Ann B_12/render_pt.rs' --only=x".to_owned();
+        report.assignment = "tiny".to_owned();
+        report.checks[0].repeat =
+            "cargo grade 'hand ins/Ann B_12/render_pt.rs' --assignment=/staff/tiny --seed=1".to_owned();
         let (student, _) = for_student(&report, Some("my/render_pt.rs")).expect("it can be made");
-        assert_eq!(student.checks[0].repeat, "cargo grade my/render_pt.rs --only=x");
+        assert_eq!(student.checks[0].repeat, "cargo grade my/render_pt.rs --assignment=tiny --seed=1");
         assert_eq!(student.submission.path, "my/render_pt.rs");
         let (same, _) = for_student(&report, None).expect("it can be made");
         assert_eq!(same, report, "where nothing is hidden, nothing changes");

@@ -197,7 +197,11 @@ impl Browser {
         self.ask("1");
         let complaint = |event: &Value| match event["method"].as_str()? {
             "Runtime.exceptionThrown" => Some(event["params"]["exceptionDetails"].to_string()),
-            "Log.entryAdded" => Some(event["params"]["entry"].to_string()),
+            // Warnings are advice, as on how to read a canvas fast.
+            "Log.entryAdded" => {
+                let entry = &event["params"]["entry"];
+                (entry["level"] == "error").then(|| entry.to_string())
+            }
             "Network.requestWillBeSent" => {
                 let url = event["params"]["request"]["url"].as_str()?;
                 let own = url.starts_with("file:") || url.starts_with("data:");

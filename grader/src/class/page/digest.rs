@@ -14,6 +14,8 @@ pub(super) struct Digest {
     pub(super) seconds: Option<f64>,
     /// Time for a given noise; see [`Record::work`].
     pub(super) work: Option<f64>,
+    /// Its place in [`Digests::alike`]; none if it passes everything.
+    pub(super) group: Option<usize>,
     /// True if its pages are there.
     pub(super) pages: bool,
 }
@@ -74,6 +76,9 @@ impl Digests {
         digests.alike =
             groups.into_iter().map(|((is_cause, what), rows)| Alike { what, is_cause, rows }).collect();
         digests.alike.sort_by_key(|group| std::cmp::Reverse(group.rows.len()));
+        for (place, group) in digests.alike.iter().enumerate() {
+            group.rows.iter().for_each(|&row| digests.of_rows[row].group = Some(place));
+        }
         digests
     }
 }

@@ -54,15 +54,16 @@ impl ClassPage<'_> {
         file.write_all(document::begin(&title, SCRIPT).as_bytes())?;
         for section in [
             sections::header(self),
+            sections::changes(self),
             sections::points(self),
             table::table(self, digests),
-            sections::hard(self, digests),
             sections::alike(self, digests),
         ] {
             file.write_all(section.into_string().as_bytes())?;
         }
         self.wall(digests, file)?;
-        for section in [sections::speed(self, digests), sections::to_mark(self), sections::changes(self)] {
+        let after = [sections::to_mark(self), sections::hard(self, digests), sections::speed(self, digests)];
+        for section in after {
             file.write_all(section.into_string().as_bytes())?;
         }
         file.write_all(document::end(SCRIPT).as_bytes())
@@ -88,7 +89,7 @@ impl ClassPage<'_> {
             }
             let source = format!("data:image/png;base64,{}", STANDARD.encode(&png));
             let inside = html! {
-                img src=(source) alt={ "picture of " (row.key) } loading="lazy";
+                img src=(source) alt={ "picture of " (row.key) };
                 span { (row.key) } " " span.soft { (table::points_of(row)) }
             };
             let tile = html! {

@@ -29,8 +29,8 @@ pub(super) fn header(page: &ClassPage<'_>) -> Markup {
             p { @for (index, (state, words)) in parts.into_iter().filter(|(state, _)| count(*state) > 0).enumerate() {
                 @if index > 0 { ", " } b { (count(state)) } " " (words)
             } }
-            @if page.similar > 0 { p { (page.similar) " groups of hand-ins are the same or nearly so: see "
-                a href="similar.txt" { "similar.txt" } } }
+            @if page.similar > 0 { p { "Hand-ins that are the same or nearly so: " (page.similar) " groups, in "
+                a href="similar.txt" { "similar.txt" } "." } }
         }
     }
 }

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::image_error::{Truth, mse, relative_mse, smape};
 
-pub use render::pictures;
+pub use render::{MOST, pictures};
 pub use store::{load, save};
 pub use thumbnail::thumbnail;
 
