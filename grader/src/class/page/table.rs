@@ -51,13 +51,13 @@ fn line(page: &ClassPage<'_>, columns: Columns, row: &Row, digests: &Digests, di
     html! {
         tr {
             td { (row.key) @if columns.roster && !row.on_roster { " " span.soft { "not on the roster" } } }
-            @if columns.names { td { (name(row)) } }
+            @if columns.names { td.words { (name(row)) } }
             (number(row.points, points_of(row)))
             @for task in &page.rubric.tasks {
                 @let points = row.tasks.get(&task.id).copied().flatten();
                 (number(points, shown(points)))
             }
-            td { (why(row)) @if let Some(cause) = cause { " " (cause.what) } }
+            td.words { (why(row)) @if let Some(cause) = cause { " " (cause.what) } }
             @if columns.late {
                 (number(late_by(row), row.lateness.as_ref().map_or_else(String::new, Lateness::late_by_text)))
             }

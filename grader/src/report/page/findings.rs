@@ -80,7 +80,7 @@ pub(super) fn checks(report: &Report, edition: Edition) -> Markup {
             }
         }
         @if let Edition::Student { concealed, passed } = edition && concealed > 0 {
-            p { (concealed) " checks are not shown, in scenes that are not handed out; " (passed) " of them passed. They hold a \
+            p { "Checks in scenes that are not handed out, which are not shown: " (concealed) ", of which " (passed) " passed. They hold a \
                 hand-in to nothing that the others do not: what is right in every scene passes them." }
         }
     }

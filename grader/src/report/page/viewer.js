@@ -114,7 +114,7 @@ const bringToLife = (figure) => {
     });
     figure.querySelector(".probe").textContent = [
       `pixel (${x}, ${y})${held ? ", held: click to let go" : ""}`, ...rows, "reference " + three(reference), technique.padEnd(4) + "off by".padEnd(6) + off.join(""),
-      `z ${z[i].toFixed(1)}${flip.length ? `   FLIP ${flip[i].toFixed(3)}` : ""}`,
+      `z ${z[i].toFixed(1)}${Math.abs(z[i]) >= 12.7 ? " or beyond" : ""}${flip.length ? `   FLIP ${flip[i].toFixed(3)}` : ""}`,
     ].join("\n");
     const number0 = clamp(Math.round(+control("sample").value) || 1, 1, seeds.length * samples) - 1;
     figure.querySelector(".replay").textContent =
