@@ -25,7 +25,7 @@ pub(super) struct Arguments {
     submission: Option<PathBuf>,
     #[command(flatten)]
     assignment: Assignment,
-    /// Folder for report.json and report.html; it is made if it is not there
+    /// Folder for report.json, report.html (to hand out) and report-tutor.html; it is made if it is not there
     #[arg(long, value_name = "DIR", default_value = "report")]
     out: PathBuf,
     /// Seed of all random numbers: the same seed gives the same verdicts
@@ -40,7 +40,7 @@ pub(super) struct Arguments {
     /// Exit with status 1 if fewer points than this are earned, of all automatic points
     #[arg(long, value_name = "POINTS", conflicts_with = "only", value_parser = points)]
     fail_under: Option<f64>,
-    /// Give the points only: leave out what follows them, error against run time and report.html (also left out with --only)
+    /// Give the points only: leave out what follows them, error against run time and pages (also left out with --only)
     #[arg(long)]
     no_report: bool,
     /// Write the report in another format, too: markdown, junit, github, gradescope, classroom50, autolab; a file may

@@ -183,6 +183,10 @@ mod tests {
             );
             assert!(!json.contains(secret) && !html.contains(secret), "{secret}");
         }
+        let surroundings = crate::export::Surroundings::default();
+        let gradescope =
+            crate::export::Format::Gradescope.render(&report, &surroundings).expect("it can be made");
+        assert!(!gradescope.contains("hidden-variants") && !gradescope.contains("cellar"), "{gradescope}");
         assert_eq!(student.checks.len(), 1);
         assert_eq!(student.points, report.points, "hidden checks count all the same");
         assert!(
