@@ -14,7 +14,9 @@ use serde::{Deserialize, Serialize};
 use crate::image_error::{Truth, mse, relative_mse, smape};
 
 pub use render::{MOST, pictures};
+pub(crate) use render::{Shown, half_size};
 pub use store::{load, save};
+pub(crate) use thumbnail::png;
 pub use thumbnail::thumbnail;
 
 /// A hand-in's pictures of a scene. All lists are row by row from the top.

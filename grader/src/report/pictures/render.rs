@@ -133,16 +133,17 @@ fn mean_and_z(
 }
 
 /// A reference for looking at.
-struct Shown {
-    reference: Vec<[f64; 3]>,
-    width: usize,
-    height: usize,
-    max_bounces: u32,
+pub(crate) struct Shown {
+    /// Row by row from the top.
+    pub(crate) reference: Vec<[f64; 3]>,
+    pub(crate) width: usize,
+    pub(crate) height: usize,
+    pub(crate) max_bounces: u32,
 }
 
 /// The reference at half its size; `None` if it is not there, shows another scene, or does not say how many bounces it
 /// has.
-fn half_size(workspace: &Workspace, scene: &str, description: &SceneDescription) -> Option<Shown> {
+pub(crate) fn half_size(workspace: &Workspace, scene: &str, description: &SceneDescription) -> Option<Shown> {
     let file = ExrFile::read(&workspace.picture_file(scene)).ok()?;
     let max_bounces = file.metadata.get("arty:max_bounces")?.parse().ok()?;
     let hash = description.hash();

@@ -27,21 +27,31 @@ pub fn thumbnail(pictures: &[Picture]) -> Option<Vec<u8>> {
     }
     let width = WIDTH.min(columns);
     let height = (rows * width / columns).max(1);
-    let value =
-        |x: usize, y: usize, c: usize| f16::from_bits(rendered.radiance[3 * (y * columns + x) + c]).to_f32();
+    let value = |x: usize, y: usize, c: usize| {
+        f64::from(f16::from_bits(rendered.radiance[3 * (y * columns + x) + c]).to_f32())
+    };
     // The mean of all pixels that lie in one of the small picture.
-    let small = |x: usize, y: usize| {
+    let small = |x: usize, y: usize| -> [f64; 3] {
         let (left, right) = (x * columns / width, (x + 1) * columns / width);
         let (top, bottom) = (y * rows / height, (y + 1) * rows / height);
-        let count = ((right - left) * (bottom - top)) as f32;
-        let mean: [f32; 3] = std::array::from_fn(|c| {
+        let count = ((right - left) * (bottom - top)) as f64;
+        std::array::from_fn(|c| {
             let pixels = (top..bottom).flat_map(|y| (left..right).map(move |x| (x, y)));
-            pixels.map(|(x, y)| value(x, y, c)).sum::<f32>() / count
-        });
-        if mean.iter().any(|value| value.is_nan()) { NOT_A_NUMBER } else { mean.map(linear_to_srgb_u8) }
+            pixels.map(|(x, y)| value(x, y, c)).sum::<f64>() / count
+        })
     };
-    let bytes: Vec<u8> =
-        (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).flat_map(|(x, y)| small(x, y)).collect();
+    let pixels: Vec<[f64; 3]> =
+        (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| small(x, y)).collect();
+    png(&pixels, width, height)
+}
+
+/// Radiance as a PNG, cut off at the display's black and white; `None` if there are no pixels.
+pub(crate) fn png(pixels: &[[f64; 3]], width: usize, height: usize) -> Option<Vec<u8>> {
+    let shown = |pixel: &[f64; 3]| {
+        let is_number = pixel.iter().all(|value| !value.is_nan());
+        if is_number { pixel.map(|value| linear_to_srgb_u8(value as f32)) } else { NOT_A_NUMBER }
+    };
+    let bytes: Vec<u8> = pixels.iter().flat_map(shown).collect();
     let mut png = Vec::new();
     PngEncoder::new(&mut png)
         .write_image(&bytes, width as u32, height as u32, ExtendedColorType::Rgb8)
