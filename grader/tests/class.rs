@@ -50,7 +50,7 @@ impl Course {
 
     fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));
-        command.args(["class", "class", "--assignment"]).arg(self.path("rubric"));
+        command.args(["class", "class", "--no-report", "--assignment"]).arg(self.path("rubric"));
         command.args(arguments).current_dir(self.0.path());
         command
     }

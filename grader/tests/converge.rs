@@ -4,7 +4,9 @@
 
 use arty::integrator::Technique;
 use grader::build::{Framework, HandInProgram, compile};
-use grader::convergence::{Contestant, Convergence, Curve, Options, Role, brief, measure, save_csv, svg};
+use grader::convergence::{
+    Contestant, Convergence, Curve, Options, Role, brief, crops, measure, save_csv, svg,
+};
 use grader::workspace::Workspace;
 
 fn workspace() -> Workspace {
@@ -93,4 +95,29 @@ fn without_a_solution_the_comparison_is_left_out_with_the_reason() {
         assert_eq!(roles, [Role::Submission, Role::Baseline]);
         assert!(panel.curves.iter().all(|curve| curve.efficiency.is_none() && !curve.points.is_empty()));
     }
+}
+
+#[test]
+fn crops_show_each_program_and_the_reference_after_the_same_time() {
+    let solution = program(&solution());
+    let contestant = |name: &str, role| Contestant { name: name.to_owned(), role, program: &solution };
+    let contestants = [contestant("solution", Role::Solution), contestant("BSDF sampling", Role::Baseline)];
+    let options = Options {
+        scenes: vec!["cornell_box".to_owned()],
+        techniques: vec![Technique::Mis],
+        seconds: 0.5,
+        target: None,
+        seed: 1,
+        threads: 1,
+        lengths: 3,
+    };
+    let convergence = measure(&workspace(), &contestants, &options, |_| {}).expect("the harness works");
+    let crops = crops(&workspace(), &contestants, &convergence).expect("the harness works");
+    let names: Vec<&str> = crops[0].list.iter().map(|crop| crop.name.as_str()).collect();
+    assert_eq!(names, ["solution", "BSDF sampling", "reference"]);
+    let error = |index: usize| crops[0].list[index].relative_mse.expect("it is known");
+    // It is about twenty times as large.
+    assert!(error(1) > 3.0 * error(0), "{} {}", error(0), error(1));
+    let sizes = crops[0].list.iter().map(|crop| image::load_from_memory(&crop.png).expect("a PNG").width());
+    assert_eq!(sizes.collect::<Vec<_>>(), [48, 48, 48]);
 }

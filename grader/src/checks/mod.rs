@@ -160,6 +160,7 @@ impl Bench<'_> {
             negative: 0,
             weights: None,
             coefficients: Vec::new(),
+            coefficient_margins: Vec::new(),
             variance_ratios: Vec::new(),
             remarks: Vec::new(),
             z: Vec::new(),

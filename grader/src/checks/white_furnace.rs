@@ -53,6 +53,7 @@ pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult)
     result.samples = judgements.iter().map(|judgement| judgement.samples).sum();
     if orders.len() > 1 {
         result.coefficients = furnace.coefficients(&judgements);
+        result.coefficient_margins = furnace.coefficient_margins(&judgements);
         if result.verdict == Verdict::Fail {
             result.explanation += &format!(
                 ", with up to {worst} bounces; light that is scattered 0, 1, … times counts {} times",
@@ -172,6 +173,27 @@ impl Furnace {
             return Vec::new();
         }
         (0..judgements.len()).map(|order| step(order, &seen) / step(order, &exact)).collect()
+    }
+}
+
+/// Confidence of the intervals of coefficients, as of all intervals in a report.
+const CONFIDENCE: f64 = 0.99;
+
+impl Furnace {
+    /// Half the interval of each [`Self::coefficients`]: the pictures of two orders are independent.
+    fn coefficient_margins(&self, judgements: &[Judgement]) -> Vec<f64> {
+        if !matches!(self.walls, Walls::Uniform(_)) {
+            return Vec::new();
+        }
+        let exact = |order: usize| self.series(1, order as u32);
+        let margin = |order: usize| exact(order) * judgements[order].whole.relative_margin(CONFIDENCE);
+        let of = |order: usize| match order {
+            0 => margin(0) / exact(0),
+            _ => margin(order).hypot(margin(order - 1)) / (exact(order) - exact(order - 1)),
+        };
+        // JSON has no infinity; a margin that is none is not shown.
+        let margins: Vec<f64> = (0..judgements.len()).map(of).collect();
+        if margins.iter().all(|margin| margin.is_finite()) { margins } else { Vec::new() }
     }
 }
 

@@ -3,11 +3,13 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use arty::integrator::Technique;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
 use crate::intake::{Explanation, Finding, HandIn};
-use crate::report::{Reason, Report, Verdict};
+use crate::report::{CheckResult, Reason, Report, Verdict, pages_beside, pictures_beside};
+use crate::rubric::CheckKind;
 
 /// The version of the format.
 const SCHEMA: &str = "arty-record/1";
@@ -40,6 +42,13 @@ pub struct Record {
     pub graded_at: String,
     /// How long compiling and running took.
     pub seconds: f64,
+    /// The likeliest cause of what is wrong.
+    #[serde(default)]
+    pub mistake: Option<String>,
+    /// Time for a given noise: the variance of multiple importance sampling relative to the solution's × seconds for a
+    /// sample, as the geometric mean over the scenes of the check `efficiency`. None unless the means are right.
+    #[serde(default)]
+    pub work: Option<f64>,
     /// BLAKE3 of `report.json`; empty if there is none.
     pub report: String,
 }
@@ -75,9 +84,33 @@ impl Record {
             source: report.map_or_else(String::new, |report| report.submission.hash.clone()),
             graded_at: jiff::Timestamp::now().strftime("%FT%TZ").to_string(),
             seconds: report.map_or(0.0, |report| report.cost.build + report.cost.run),
+            mistake: report.and_then(|report| report.diagnosis.first()).map(|cause| cause.title.clone()),
+            work: report.and_then(work),
             report: String::new(),
         }
     }
+}
+
+/// See [`Record::work`].
+fn work(report: &Report) -> Option<f64> {
+    let looked_at = |check: &&CheckResult| {
+        check.check == CheckKind::Efficiency && check.technique == Technique::Mis && check.samples > 0
+    };
+    // What leaves light out has little noise.
+    if report.checks.iter().any(|check| check.technique == Technique::Mis && check.verdict == Verdict::Fail) {
+        return None;
+    }
+    let logs: Vec<f64> = report
+        .checks
+        .iter()
+        .filter(looked_at)
+        .map(|check| {
+            let own = check.variance_ratios.iter().find(|it| it.technique == check.technique)?;
+            let work = own.ratio * check.seconds / check.samples as f64;
+            (check.verdict == Verdict::Pass && work > 0.0).then(|| work.ln())
+        })
+        .collect::<Option<_>>()?;
+    (!logs.is_empty()).then(|| (logs.iter().sum::<f64>() / logs.len() as f64).exp())
 }
 
 /// The one thing that a student has to know first.
@@ -108,7 +141,7 @@ impl Shelf {
         Self(out.join("hand-ins").join(key))
     }
 
-    fn report(&self) -> PathBuf {
+    pub(super) fn report(&self) -> PathBuf {
         self.0.join("report.json")
     }
 
@@ -116,11 +149,37 @@ impl Shelf {
         self.0.join("record.json")
     }
 
+    /// The student's edition of the page, and the tutor's.
+    pub(super) fn pages(&self) -> [PathBuf; 2] {
+        pages_beside(&self.report())
+    }
+
+    /// What the pages were made of: a hash.
+    pub(super) fn made_of(&self) -> PathBuf {
+        self.0.join("pages.hash")
+    }
+
+    /// The pictures of the pages.
+    pub(super) fn pictures(&self) -> PathBuf {
+        pictures_beside(&self.report())
+    }
+
+    /// The picture for the page of the class.
+    pub(super) fn thumbnail(&self) -> PathBuf {
+        self.0.join("thumbnail.png")
+    }
+
+    /// The record, whatever became of its report.
+    pub(super) fn record_alone(&self) -> Option<Record> {
+        let record: Record = serde_json::from_slice(&std::fs::read(self.record()).ok()?).ok()?;
+        (record.schema == SCHEMA).then_some(record)
+    }
+
     /// The record, if there is a whole one whose report is whole, too.
     pub(super) fn load(&self) -> Option<Record> {
-        let record: Record = serde_json::from_slice(&std::fs::read(self.record()).ok()?).ok()?;
+        let record = self.record_alone()?;
         let report = std::fs::read(self.report()).map_or_else(|_| String::new(), |bytes| hash(&bytes));
-        (record.schema == SCHEMA && record.report == report).then_some(record)
+        (record.report == report).then_some(record)
     }
 
     /// Keeps report and record. The record comes last and names the report: whatever is interrupted, what

@@ -15,7 +15,7 @@ use super::gradebook::{Row, State};
 use super::progress::{Line, Progress};
 use super::record::{Record, Shelf};
 use super::similar::{Fingerprint, Starter};
-use super::{Class, Member};
+use super::{Class, Member, pages};
 use crate::error::{Error, Result};
 use crate::grade::{Grader, Options};
 use crate::intake::{self, Finding, HandIn};
@@ -35,6 +35,8 @@ pub struct RunOptions {
     pub out: PathBuf,
     /// True if hand-ins are graded again of which nothing has changed.
     pub regrade: bool,
+    /// True if each hand-in gets its pages, and pictures on them.
+    pub pages: bool,
 }
 
 /// What has become of a class.
@@ -55,6 +57,9 @@ pub struct Outcome {
 
 /// All that workers share.
 struct Shared<'a> {
+    workspace: &'a Workspace,
+    /// What students call their file.
+    student_file: String,
     grader: Grader,
     class: &'a Class,
     policy: Option<&'a Policy>,
@@ -108,7 +113,10 @@ pub fn run(
     let starter_file = workspace.student_file();
     let starter_text =
         std::fs::read_to_string(&starter_file).map_err(|error| Error::file(&starter_file, error))?;
+    let student_file = starter_file.strip_prefix(workspace.root()).unwrap_or(&starter_file);
     let shared = Shared {
+        workspace,
+        student_file: student_file.display().to_string(),
         marks: Marks::open(&options.out)?,
         base: hash_of_inputs(workspace, &grader, &options.grade)?,
         tasks: grader.rubric().tasks.iter().filter(|task| !task.manual).map(|task| task.id.clone()).collect(),
@@ -181,6 +189,7 @@ impl Shared<'_> {
             .unwrap_or_else(|_| Err(Error::Harness("the grader panicked".to_owned())));
         match attempt {
             Ok(Some(settled)) => {
+                self.pages(member, &shelf, &settled.record);
                 let Settled { record, fingerprint, lateness, receipt, graded } = settled;
                 let change = before.as_ref().and_then(|before| change(&member.key, before, &record));
                 let row =
@@ -212,6 +221,17 @@ impl Shared<'_> {
         }
     }
 
+    /// Makes the pages of a hand-in. They decide nothing: what goes wrong with them is said, and changes no row.
+    fn pages(&self, member: &Member, shelf: &Shelf, record: &Record) {
+        let made = match (self.options.pages, record.report.is_empty()) {
+            (true, false) => pages::make(shelf, record, &self.marks, &self.student_file),
+            _ => pages::clear(shelf),
+        };
+        if let Err(error) = made {
+            eprintln!("warning: the page of {}: {error}", intake::harmless(&member.key));
+        }
+    }
+
     /// Takes in and grades; `None` if there is nothing.
     fn attempt(
         &self,
@@ -240,7 +260,13 @@ impl Shared<'_> {
         if let Some(report) = &report {
             record = Record::new(record.key, &hand_in, &self.tasks, Some(report));
         }
+        pages::clear(shelf)?;
         shelf.save(&mut record, report.as_ref())?;
+        if let (Some(report), Ok(submission), true) = (&report, &hand_in.outcome, self.options.pages)
+            && let Err(error) = pages::render(self.workspace, &self.grader, submission, report, shelf)
+        {
+            eprintln!("warning: no pictures of {}: {error}", intake::harmless(&member.key));
+        }
         Ok(Some(Settled { record, fingerprint, lateness, receipt, graded: report.is_some() }))
     }
 

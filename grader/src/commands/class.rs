@@ -9,6 +9,7 @@ use super::assignment::Assignment;
 use super::least_sandbox::LeastSandbox;
 use super::policy::policy;
 use crate::class::gradebook::{Row, State, save_class, save_gradebook};
+use crate::class::page::ClassPage;
 use crate::class::{Class, RunOptions, has_results, roster, run, similar, systems};
 use crate::error::{Error, Result};
 use crate::grade::Options;
@@ -52,6 +53,9 @@ pub(super) struct Arguments {
     /// Grade everything again, and say what has changed
     #[arg(long)]
     regrade: bool,
+    /// Leave out the pages of hand-ins and class, and the pictures on them
+    #[arg(long)]
+    no_report: bool,
     /// Seed of all random numbers: the same seed gives the same verdicts
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -101,6 +105,7 @@ pub(super) fn run_class(arguments: &Arguments) -> Result<ExitCode> {
         jobs: arguments.jobs.map_or_else(rayon::current_num_threads, usize::from),
         out: out.clone(),
         regrade: arguments.regrade,
+        pages: !arguments.no_report,
     };
     let tasks: Vec<String> = rubric.tasks.iter().map(|task| task.id.clone()).collect();
     let gradebook = out.join("gradebook.csv");
@@ -123,6 +128,16 @@ pub(super) fn run_class(arguments: &Arguments) -> Result<ExitCode> {
     arty::image::write_aside(&out.join("similar.txt"), |file| {
         std::io::Write::write_all(file, text.as_bytes())
     })?;
+    if !arguments.no_report {
+        let page = ClassPage {
+            rubric: &rubric,
+            rows: &outcome.rows,
+            changes: &outcome.changes,
+            similar: alike.len(),
+            out,
+        };
+        page.save(&out.join("class.html"))?;
+    }
     if let Some(from) = &arguments.moodle {
         report_filled("Moodle", &systems::fill_moodle(from, &out.join("moodle.csv"), &outcome.rows)?);
     }
@@ -177,4 +192,7 @@ fn print_outcome(
         eprintln!("note: with --only, sums are of those tasks alone whose checks were all run");
     }
     eprintln!("gradebook: {}", gradebook.display());
+    if !arguments.no_report {
+        eprintln!("page: {}", gradebook.with_file_name("class.html").display());
+    }
 }

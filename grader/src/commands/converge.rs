@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::build::{Framework, compile, solution};
 use crate::convergence::{
-    Contestant, Options, Role, TELLING_SCENES, measure, print_table, save_csv, save_json, svg,
+    Contestant, Options, Role, TELLING_SCENES, crops, measure, page, print_table, save_csv, save_json, svg,
 };
 use crate::error::{Error, Result};
 use crate::report::LeftOut;
@@ -21,7 +21,8 @@ use crate::workspace::Workspace;
 ///
 /// Separate renderings of several lengths, in turns with the other programs, on the processor time that each took.
 /// Errors are relative MSEs against the stored references, whose own noise is subtracted. The line of an unbiased
-/// program falls with slope −1; one that flattens has a bias. Writes convergence.svg, .csv and .json.
+/// program falls with slope −1; one that flattens has a bias. Writes convergence.svg, .csv and .json, and
+/// convergence.html with the plot and crops after equal time.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// Each a render_pt.rs, or a folder with one in it [default: the student file in the skeleton]
@@ -78,7 +79,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     };
     std::fs::create_dir_all(&arguments.out).map_err(|error| Error::file(&arguments.out, error))?;
     let file = |extension: &str| arguments.out.join("convergence").with_extension(extension);
-    ["svg", "csv", "json"].into_iter().try_for_each(|extension| check_writable(&file(extension)))?;
+    ["svg", "csv", "json", "html"].into_iter().try_for_each(|extension| check_writable(&file(extension)))?;
 
     let framework = Framework::build(&workspace)?;
     let mut left_out = Vec::new();
@@ -116,8 +117,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
             std::io::Write::write_all(writer, picture.as_bytes())
         })?;
     }
+    eprintln!("rendering crops after equal time …");
+    let text = page(&convergence, &crops(&workspace, &contestants, &convergence)?);
+    arty::image::write_aside(&file("html"), |writer| std::io::Write::write_all(writer, text.as_bytes()))?;
     print_table(&convergence);
-    eprintln!("plot and numbers: {}, .csv, .json", file("svg").display());
+    eprintln!("page, plot and numbers: {}, .svg, .csv, .json", file("html").display());
     Ok(ExitCode::SUCCESS)
 }
 

@@ -1,17 +1,18 @@
 //! What a grade does once its points stand: error against run time, pictures, and the report as a page.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::build::compile;
 use crate::convergence::{brief, print_sentences};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::grade::{Grader, Options};
 use crate::reference::Oracle;
-use crate::report::{Picture, Report, page, pictures};
+use crate::report::pictures::{MOST, pictures, save};
+use crate::report::{Picture, Report, pictures_beside, write_pages};
 use crate::submission::Submission;
 use crate::workspace::Workspace;
 
-/// Completes a report, saves it again, and writes it as `report.html` beside it. The points do not change.
+/// Completes a report, saves it again, and writes it as pages beside it. The points do not change.
 pub(super) fn complete(
     workspace: &Workspace,
     grader: &Grader,
@@ -29,29 +30,11 @@ pub(super) fn complete(
             println!("\nError against run time, for no points");
             print_sentences(&convergence);
             report.convergence = Some(convergence);
-            shown = pictures(workspace, &hand_in, report, *threads, *seed)?;
-            report.images = shown.iter().map(Picture::error).collect();
+            shown = pictures(workspace, &hand_in, report, *threads, *seed, MOST)?;
+            report.images = shown.iter().flat_map(Picture::errors).collect();
         }
     }
     report.save(file)?;
-    let text = page(report, &shown);
-    arty::image::write_aside(&page_beside(file), |writer| {
-        std::io::Write::write_all(writer, text.as_bytes())
-    })?;
-    Ok(())
-}
-
-/// Removes the page of an earlier grade, which would lie beside the report of another.
-pub(super) fn remove_page(file: &Path) -> Result<()> {
-    match std::fs::remove_file(page_beside(file)) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-            Err(Error::file(&page_beside(file), error))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// `report.html` beside `report.json`.
-fn page_beside(file: &Path) -> PathBuf {
-    file.with_extension("html")
+    save(&shown, &pictures_beside(file))?;
+    write_pages(report, &shown, file, None)
 }

@@ -14,7 +14,7 @@ use crate::export::Export;
 use crate::grade::{Grader, Options};
 use crate::intake::{self, Finding, HandIn, Refusal};
 use crate::marks::Marks;
-use crate::report::{Progress, print_profile, print_sum, print_summary};
+use crate::report::{Progress, print_profile, print_sum, print_summary, remove_pages};
 use crate::submission::Submission;
 use crate::workspace::Workspace;
 
@@ -25,7 +25,7 @@ pub(super) struct Arguments {
     submission: Option<PathBuf>,
     #[command(flatten)]
     assignment: Assignment,
-    /// Folder for report.json and report.html; it is made if it is not there
+    /// Folder for report.json, report.html (to hand out) and report-tutor.html; it is made if it is not there
     #[arg(long, value_name = "DIR", default_value = "report")]
     out: PathBuf,
     /// Seed of all random numbers: the same seed gives the same verdicts
@@ -40,7 +40,7 @@ pub(super) struct Arguments {
     /// Exit with status 1 if fewer points than this are earned, of all automatic points
     #[arg(long, value_name = "POINTS", conflicts_with = "only", value_parser = points)]
     fail_under: Option<f64>,
-    /// Give the points only: leave out what follows them, error against run time and report.html (also left out with --only)
+    /// Give the points only: leave out what follows them, error against run time and pages (also left out with --only)
     #[arg(long)]
     no_report: bool,
     /// Write the report in another format, too: markdown, junit, github, gradescope, classroom50, autolab; a file may
@@ -79,7 +79,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let file = arguments.out.join("report.json");
     std::fs::create_dir_all(&arguments.out).map_err(|error| Error::file(&arguments.out, error))?;
     check_writable(&file)?;
-    full_report::remove_page(&file)?;
+    remove_pages(&file)?;
     for export in &arguments.export {
         export.target(&arguments.out).map_or(Ok(()), |file| check_writable(&file))?;
     }

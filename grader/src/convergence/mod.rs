@@ -11,9 +11,11 @@
 //! a bias, which no time takes away, or random numbers that repeat.
 
 mod brief;
+mod crops;
 mod estimate;
 mod export;
 mod measure;
+mod page;
 mod plot;
 mod racer;
 mod summary;
@@ -25,9 +27,12 @@ use serde::{Deserialize, Serialize};
 use crate::report::LeftOut;
 
 pub use brief::brief;
+pub use crops::{Crop, Crops, crops};
 pub use export::{save_csv, save_json};
 pub use measure::{Contestant, Options, measure};
+pub use page::page;
 pub use plot::svg;
+pub(crate) use plot::{GRID, INK, OTHER, PAPER, SUBMISSION};
 pub use table::{print_sentences, print_table, sentences};
 
 /// The scenes that tell most: diffuse with a small light, glossy with a large one, both at once, very many lights.

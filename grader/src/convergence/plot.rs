@@ -10,9 +10,9 @@ use super::{Convergence, Curve, Panel, Role};
 const PANEL: (u32, u32) = (560, 420);
 
 /// Colours that a dark background replaces; the others are legible on both.
-const INK: RGBColor = RGBColor(0x20, 0x21, 0x24);
-const PAPER: RGBColor = RGBColor(0xff, 0xff, 0xfe);
-const GRID: RGBColor = RGBColor(0xe4, 0xe4, 0xe7);
+pub(crate) const INK: RGBColor = RGBColor(0x20, 0x21, 0x24);
+pub(crate) const PAPER: RGBColor = RGBColor(0xff, 0xff, 0xfe);
+pub(crate) const GRID: RGBColor = RGBColor(0xe4, 0xe4, 0xe7);
 
 /// In the order of hand-ins; from Okabe and Ito, whom colour-blind readers can tell apart.
 const SUBMISSIONS: [RGBColor; 5] = [
@@ -22,6 +22,9 @@ const SUBMISSIONS: [RGBColor; 5] = [
     RGBColor(0xb8, 0x86, 0x0b),
     RGBColor(0x3a, 0xa6, 0xc4),
 ];
+/// What is the hand-in's in plots of one hand-in, and what stands beside it.
+pub(crate) const SUBMISSION: RGBColor = SUBMISSIONS[0];
+pub(crate) const OTHER: RGBColor = SUBMISSIONS[1];
 const SOLUTION: RGBColor = RGBColor(0x00, 0x9e, 0x73);
 const BASELINE: RGBColor = RGBColor(0x8a, 0x8f, 0x98);
 

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use crate::error::{Error, Result};
-use crate::report::Report;
+use crate::report::{Report, for_student};
 
 pub use github::annotations;
 pub use markdown::summary;
@@ -61,7 +61,11 @@ impl Format {
             Self::Markdown => Ok(markdown::summary(report)),
             Self::Junit => junit::xml(report).map_err(|error| trouble(&error)),
             Self::Github => Ok(github::annotations(report, surroundings)),
-            Self::Gradescope => gradescope::results(report, surroundings).map_err(|error| trouble(&error)),
+            // What it shows is read by the student.
+            Self::Gradescope => {
+                let (student, _) = for_student(report, None)?;
+                gradescope::results(&student, surroundings).map_err(|error| trouble(&error))
+            }
             Self::Classroom50 => classroom50::result(report, surroundings).map_err(|error| trouble(&error)),
             Self::Autolab => autolab::line(report).map_err(|error| trouble(&error)),
         }

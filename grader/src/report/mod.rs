@@ -1,7 +1,8 @@
 //! What a grade has found. `report.json` holds all of it; every other format is made from that.
 
+mod edition;
 mod page;
-mod pictures;
+pub mod pictures;
 mod profile;
 mod progress;
 #[cfg(test)]
@@ -23,8 +24,10 @@ use crate::rubric::CheckKind;
 use crate::sandbox::{Layers, Level, both, missing};
 use crate::scan::Finding;
 
-pub use page::page;
-pub use pictures::{ImageError, Picture, pictures};
+pub use edition::{Edition, for_student, is_hidden_name};
+pub(crate) use page::{document, plots};
+pub use page::{page, pages_beside, pictures_beside, remove_pages, write_pages};
+pub use pictures::{ImageError, Picture};
 pub use profile::print_profile;
 pub use progress::Progress;
 pub use terminal::{print_sum, print_summary};
@@ -169,6 +172,9 @@ pub struct CheckResult {
     /// In a furnace: how many times light counts that is scattered 0, 1, 2, … times. Each should be 1.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub coefficients: Vec<f64>,
+    /// Half the 99 % interval of each of these.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub coefficient_margins: Vec<f64>,
     /// How noisy the hand-in is, where that was looked at.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub variance_ratios: Vec<VarianceOf>,

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use arty::integrator::Technique;
 
+use crate::report::pictures::Picture;
 use crate::report::{
     CheckResult, Cost, LeftOut, Numerics, Points, Reason, Report, SCHEMA, Sandbox, SubmissionInfo,
     TaskResult, Verdict,
@@ -67,6 +68,7 @@ pub(crate) fn report(text: &str) -> Report {
             negative: 0,
             weights: None,
             coefficients: vec![1.0, 0.5],
+            coefficient_margins: vec![0.01, 0.02],
             variance_ratios: Vec::new(),
             remarks: vec![text()],
             z: Vec::new(),
@@ -85,4 +87,23 @@ pub(crate) fn report(text: &str) -> Report {
         convergence: None,
         images: Vec::new(),
     }
+}
+
+/// A picture of two pixels in a scene of this name.
+pub(crate) fn picture(scene: &str) -> Picture {
+    let reference = [[1.0; 3]; 2];
+    let mut picture = Picture {
+        scene: scene.to_owned(),
+        max_bounces: 8,
+        width: 2,
+        height: 1,
+        seeds: vec![u64::MAX, 7],
+        samples: 8,
+        reference: super::pictures::half_bits(&reference),
+        rendered: Vec::new(),
+    };
+    for technique in [Technique::Bsdf, Technique::Mis] {
+        picture.add(technique, (&[[1.0, 2.0, 0.5]; 2], &reference), &[0.0, -3.0], &[0.0, 1.0]);
+    }
+    picture
 }

@@ -35,6 +35,9 @@ pub struct Weights {
     pub light_exponents: Option<[f64; EXPONENTS]>,
     /// The same for the weights of BSDF samples, in the odds against them.
     pub bsdf_exponents: Option<[f64; EXPONENTS]>,
+    /// For paths with one vertex, with densities that are not extreme: log₁₀ (p_L / p_B), w_L and w_B, in the order of the first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub measured: Vec<[f32; 3]>,
 }
 
 /// How far the sum of two weights may be from one.
@@ -191,6 +194,7 @@ fn judge(
         largest_deviation: worst(observations),
         light_exponents: light.exponents(),
         bsdf_exponents: bsdf.exponents(),
+        measured: measured(&moderate),
     };
     let sums_to_one = worst(&observations[..single]) < TOLERATED;
     let verdict = if sums_to_one && rises(&moderate) {
@@ -220,6 +224,17 @@ fn judge(
         Err(complaint) => (Verdict::Fail, Reason::Weights, complaint),
     };
     Outcome { verdict, reason, explanation, weights: Some(weights), samples: 0 }
+}
+
+/// The weights over log₁₀ (p_L / p_B), for a plot; what is no number is left out.
+fn measured(moderate: &[(&Configuration, Observation)]) -> Vec<[f32; 3]> {
+    let point = |(it, seen): &(&Configuration, Observation)| {
+        [(it.p_light / it.p_bsdf).log10(), seen.light, seen.bsdf].map(|value| value as f32)
+    };
+    let mut points: Vec<[f32; 3]> = moderate.iter().map(point).collect();
+    points.retain(|point| point.iter().all(|value| value.is_finite()));
+    points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    points
 }
 
 /// True if the weight of light samples never falls as p_L / p_B rises, and rises somewhere.

@@ -6,75 +6,210 @@ const half = (bits) => {
   if (exponent === 31) return fraction ? NaN : sign * Infinity;
   return sign * (1 + fraction / 1024) * 2 ** (exponent - 15);
 };
-const decode = (text) => {
-  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-  const view = new DataView(bytes.buffer), values = new Float32Array(bytes.length / 2);
-  for (let i = 0; i < values.length; i++) values[i] = half(view.getUint16(2 * i, true));
-  return values;
+const bytesOf = (script) => Uint8Array.from(atob(script.textContent), (letter) => letter.charCodeAt(0));
+const decode = {
+  radiance: (bytes) => {
+    const view = new DataView(bytes.buffer), values = new Float32Array(bytes.length / 2);
+    for (let i = 0; i < values.length; i++) values[i] = half(view.getUint16(2 * i, true));
+    return values;
+  },
+  z: (bytes) => Float32Array.from(new Int8Array(bytes.buffer), (tenths) => tenths / 10),
+  flip: (bytes) => Float32Array.from(bytes, (level) => level / 255),
 };
+decode.submission = decode.reference = decode.radiance;
 const srgb = (x) => (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055);
 const curves = {
   clip: (x) => Math.min(1, Math.max(0, x)),
-  reinhard: (x) => Math.max(0, x) / (1 + Math.max(0, x)),
-  aces: (x) => { x = 0.6 * Math.max(0, x); return Math.min(1, (x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14)); },
+  reinhard: (x) => (x === Infinity ? 1 : Math.max(0, x) / (1 + Math.max(0, x))),
+  aces: (x) => { x = 0.6 * Math.min(1e6, Math.max(0, x)); return Math.min(1, (x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14)); },
 };
-// Blue is too dark, orange too bright, black is right.
-const signed = (t) => { t = Math.max(-1, Math.min(1, t)); return t < 0 ? [0, -0.55 * t, -t] : [t, 0.45 * t, 0]; };
+const clamp = (value, low, high) => Math.max(low, Math.min(high, value));
+// Blue is too dark, orange too bright, black is right, magenta is no number.
+const noNumber = [1, 0, 1];
+const signed = (t) => { if (Number.isNaN(t)) return noNumber; t = clamp(t, -1, 1); return t < 0 ? [0, -0.55 * t, -t] : [t, 0.45 * t, 0]; };
 // Black, purple, orange, white.
 const heat = (t) => [Math.min(1, 1.8 * t), Math.max(0, 1.6 * t - 0.5), Math.max(0, t < 0.4 ? 1.5 * t : t < 0.7 ? 1.4 - 2 * t : 3.3 * t - 2.3)];
+const modes = ["submission", "reference", "difference", "z", "flip"];
+const techniques = { b: "bsdf", n: "nee", m: "mis" };
 
-for (const figure of document.querySelectorAll("figure[data-width]")) {
-  const width = +figure.dataset.width, height = +figure.dataset.height;
+const bringToLife = (figure) => {
+  const { width, height, samples } = Object.fromEntries(Object.entries(figure.dataset).map(([name, text]) => [name, Number(text)]));
+  const seeds = figure.dataset.seeds.split(" ");
   const planes = {};
-  for (const name of ["submission", "reference", "z", "flip"])
-    planes[name] = decode(figure.querySelector(`script[data-plane=${name}]`).textContent);
-  const canvas = figure.querySelector("canvas"), context = canvas.getContext("2d");
-  const control = (name) => figure.querySelector(`[name^=${name}]`);
-  const probe = figure.querySelector(".probe");
-  let place = [width >> 1, height >> 1];
+  for (const script of figure.querySelectorAll("script[data-plane]")) {
+    const { plane, technique } = script.dataset;
+    (planes[technique] ??= {})[plane] = decode[plane](bytesOf(script));
+  }
+  const reference = planes[""].reference;
+  const canvas = figure.querySelector("canvas.view"), context = canvas.getContext("2d");
+  const control = (name) => figure.querySelector(`[name=${name}]`);
+  const radio = (name, value) => figure.querySelector(`[name^=${name}][value=${value}]`);
+  const chosen = (name) => figure.querySelector(`[name^=${name}]:checked`).value;
+  // Whole pixels on the screen for each pixel of the picture, so that none is blurred.
+  const size = Math.max(1, Math.ceil(640 / width));
+  canvas.width = size * width; canvas.height = size * height;
+  const small = document.createElement("canvas");
+  small.width = width; small.height = height;
+  // The pixel that is read, whether it is held, and the corner of what is shown, in pixels of the picture.
+  let place = [width >> 1, height >> 1], held = false, corner = [0, 0];
+  const zoom = () => 2 ** +control("zoom").value;
 
-  const colorOf = (mode, i, scale, curve) => {
-    const rgb = (list) => [0, 1, 2].map((c) => srgb(curve(scale * list[3 * i + c])));
-    if (mode === "submission" || mode === "reference") return rgb(planes[mode]);
-    if (mode === "flip") return heat(planes.flip[i]);
-    if (mode === "z") return signed(planes.z[i] / 5);
-    let difference = 0, size = 0;
-    for (let c = 0; c < 3; c++) {
-      difference += planes.submission[3 * i + c] - planes.reference[3 * i + c];
-      size += planes.reference[3 * i + c];
-    }
-    return signed((scale * difference) / (size + 0.03));
+  const colorOf = (technique, mode, i, scale, curve) => {
+    const rgb = (list) => {
+      const all = [0, 1, 2].map((c) => list[3 * i + c]);
+      return all.some(Number.isNaN) ? noNumber : all.map((value) => srgb(curve(scale * value)));
+    };
+    if (mode === "reference") return rgb(reference);
+    const { submission, z, flip } = planes[technique];
+    if (mode === "submission") return rgb(submission);
+    if (mode === "flip") return flip.length ? heat(flip[i]) : [0, 0, 0];
+    if (mode === "z") return signed(z[i] / 5);
+    let difference = 0, total = 0;
+    for (let c = 0; c < 3; c++) { difference += submission[3 * i + c] - reference[3 * i + c]; total += reference[3 * i + c]; }
+    return signed((scale * difference) / (total + 0.03));
   };
-  const draw = () => {
-    const mode = figure.querySelector("[name^=mode]:checked").value;
-    const scale = 2 ** +control("exposure").value, curve = curves[control("curve").value];
-    const wipe = (+control("wipe").value / 100) * width;
-    const image = context.createImageData(width, height);
+  const paint = (target, colorAt) => {
+    const image = target.createImageData(width, height);
     for (let i = 0; i < width * height; i++) {
-      const shown = i % width >= wipe ? "reference" : mode;
-      colorOf(shown, i, scale, curve).forEach((value, c) => { image.data[4 * i + c] = 255 * value; });
+      colorAt(i).forEach((value, c) => { image.data[4 * i + c] = 255 * value; });
       image.data[4 * i + 3] = 255;
     }
-    context.putImageData(image, 0, 0);
-    const [x, y] = place, i = y * width + x;
-    const three = (list) => [0, 1, 2].map((c) => list[3 * i + c].toPrecision(4).padStart(10)).join(" ");
-    probe.textContent = `pixel (${x}, ${y})\nhand-in   ${three(planes.submission)}\nreference ${three(planes.reference)}\n` +
-      `z ${planes.z[i].toFixed(1)}   FLIP ${planes.flip[i].toFixed(3)}   exposure ${control("exposure").value}`;
+    target.putImageData(image, 0, 0);
   };
+  const tone = () => [2 ** +control("exposure").value, curves[control("curve").value]];
+  const drawStrip = () => {
+    for (const strip of figure.querySelectorAll("canvas[data-strip]")) {
+      strip.width = width; strip.height = height;
+      const name = strip.dataset.strip, [scale, curve] = tone();
+      paint(strip.getContext("2d"), (i) => colorOf(name, name === "reference" ? "reference" : "submission", i, scale, curve));
+    }
+  };
+  const drawView = () => {
+    const technique = chosen("technique"), mode = chosen("mode"), [scale, curve] = tone();
+    control("stops").textContent = control("exposure").value;
+    const factor = zoom(), shown = [width / factor, height / factor];
+    corner = [clamp(corner[0], 0, width - shown[0]), clamp(corner[1], 0, height - shown[1])];
+    // The wipe is a place in what is shown: it can be moved where one looks.
+    const share = +control("wipe").value / 100, edge = share === 1 ? width : corner[0] + share * shown[0];
+    paint(small.getContext("2d"), (i) => colorOf(technique, i % width >= edge ? "reference" : mode, i, scale, curve));
+    context.imageSmoothingEnabled = false;
+    context.drawImage(small, corner[0], corner[1], shown[0], shown[1], 0, 0, canvas.width, canvas.height);
+    const pixel = size * factor;
+    if (share > 0 && share < 1) { context.fillStyle = "#fff"; context.fillRect(share * canvas.width - 1, 0, 2, canvas.height); }
+    const box = [(place[0] - corner[0]) * pixel, (place[1] - corner[1]) * pixel];
+    for (const [color, line] of [["#000", 3], [held ? "#ffd54a" : "#fff", 1]]) {
+      context.strokeStyle = color; context.lineWidth = line;
+      context.strokeRect(box[0] - 0.5, box[1] - 0.5, pixel + 1, pixel + 1);
+    }
+  };
+  const read = () => {
+    const technique = chosen("technique"), { submission, z, flip } = planes[technique];
+    const [x, y] = place, i = y * width + x;
+    const number = (value) => (Number.isFinite(value) ? value.toPrecision(4) : String(value)).padStart(10);
+    const three = (list) => [0, 1, 2].map((c) => number(list[3 * i + c])).join("");
+    const rows = Object.keys(planes).filter((name) => name).map((name) => name.padEnd(10) + three(planes[name].submission));
+    const off = [0, 1, 2].map((c) => {
+      const difference = 100 * (submission[3 * i + c] / reference[3 * i + c] - 1);
+      return (Number.isFinite(difference) ? (difference > 0 ? "+" : "") + difference.toFixed(0) + " %" : "–").padStart(10);
+    });
+    figure.querySelector(".probe").textContent = [
+      `pixel (${x}, ${y})${held ? ", held: click to let go" : ""}`, ...rows, "reference " + three(reference), technique.padEnd(4) + "off by".padEnd(6) + off.join(""),
+      `z ${z[i].toFixed(1)}${Math.abs(z[i]) >= 12.7 ? " or beyond" : ""}${flip.length ? `   FLIP ${flip[i].toFixed(3)}` : ""}`,
+    ].join("\n");
+    const number0 = clamp(Math.round(+control("sample").value) || 1, 1, seeds.length * samples) - 1;
+    figure.querySelector(".replay").textContent =
+      `${figure.dataset.replay} --technique=${technique} --pixel=${x},${y} --sample=${number0 % samples} --seed=${seeds[Math.floor(number0 / samples)]}`;
+  };
+  const draw = () => { drawView(); read(); };
+  const zoomBy = (steps, [x, y]) => {
+    const before = zoom();
+    control("zoom").value = +control("zoom").value + steps;
+    // What is under the pointer stays there.
+    corner = [x - ((x - corner[0]) * before) / zoom(), y - ((y - corner[1]) * before) / zoom()];
+    draw();
+  };
+  const at = (event) => {
+    const box = canvas.getBoundingClientRect(), factor = zoom();
+    return [corner[0] + ((event.clientX - box.left) / box.width) * (width / factor), corner[1] + ((event.clientY - box.top) / box.height) * (height / factor)];
+  };
+  const pixelAt = ([x, y]) => [clamp(Math.floor(x), 0, width - 1), clamp(Math.floor(y), 0, height - 1)];
+
+  let drag = null;
+  canvas.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0) return;
+    drag = { from: [event.clientX, event.clientY], corner, moved: false };
+    canvas.setPointerCapture(event.pointerId);
+  });
   canvas.addEventListener("pointermove", (event) => {
-    const box = canvas.getBoundingClientRect();
-    const inside = (value, size) => Math.max(0, Math.min(size - 1, Math.floor(value * size)));
-    place = [inside((event.clientX - box.left) / box.width, width), inside((event.clientY - box.top) / box.height, height)];
-    draw();
+    if (drag) {
+      const box = canvas.getBoundingClientRect(), by = [event.clientX - drag.from[0], event.clientY - drag.from[1]];
+      drag.moved ||= Math.hypot(...by) > 4;
+      if (drag.moved) {
+        corner = [drag.corner[0] - (by[0] / box.width) * (width / zoom()), drag.corner[1] - (by[1] / box.height) * (height / zoom())];
+        draw();
+      }
+    } else if (!held) { place = pixelAt(at(event)); draw(); }
   });
-  canvas.addEventListener("keydown", (event) => {
-    const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
-    if (!step) return;
+  canvas.addEventListener("pointerup", (event) => {
+    if (drag && !drag.moved) { held = !held; place = pixelAt(at(event)); draw(); }
+    drag = null;
+  });
+  canvas.addEventListener("dblclick", (event) => zoomBy(control("zoom").value >= 5 ? -5 : 1, at(event)));
+  canvas.addEventListener("wheel", (event) => {
+    // Without the key, the wheel is for the page.
+    if (!event.ctrlKey) return;
     event.preventDefault();
-    place = [Math.max(0, Math.min(width - 1, place[0] + step[0])), Math.max(0, Math.min(height - 1, place[1] + step[1]))];
+    zoomBy(event.deltaY < 0 ? 0.5 : -0.5, at(event));
+  }, { passive: false });
+
+  const nudge = (name, steps) => { control(name).value = +control(name).value + steps; changed(name); };
+  const changed = (name) => { if (name === "exposure" || name === "curve") drawStrip(); draw(); };
+  let flippedFrom = "submission";
+  const keys = {
+    f: () => {
+      const now = chosen("mode");
+      if (now !== "reference") flippedFrom = now;
+      radio("mode", now === "reference" ? flippedFrom : "reference").checked = true;
+    },
+    "+": () => zoomBy(0.5, place), "=": () => zoomBy(0.5, place), "-": () => zoomBy(-0.5, place),
+    e: () => nudge("exposure", 0.5), d: () => nudge("exposure", -0.5),
+    "[": () => nudge("wipe", -5), "]": () => nudge("wipe", 5),
+    0: () => {
+      for (const name of ["exposure", "wipe", "zoom"]) control(name).value = control(name).defaultValue;
+      control("curve").selectedIndex = 0;
+      radio("mode", "submission").checked = true;
+      held = false;
+      changed("exposure");
+    },
+  };
+  canvas.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.altKey || event.metaKey) return;
+    const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+    const technique = techniques[event.key] && radio("technique", techniques[event.key]);
+    const mode = modes[event.key - 1];
+    if (step) {
+      const many = event.shiftKey ? 10 : 1;
+      place = [clamp(place[0] + many * step[0], 0, width - 1), clamp(place[1] + many * step[1], 0, height - 1)];
+      // The pixel that is read stays in sight.
+      const shown = [width / zoom(), height / zoom()];
+      corner = corner.map((low, axis) => clamp(low, place[axis] + 1 - shown[axis], place[axis]));
+    } else if (technique) technique.checked = true;
+    else if (mode) radio("mode", mode).checked = true;
+    else if (keys[event.key]) keys[event.key]();
+    else return;
+    event.preventDefault();
     draw();
   });
-  figure.addEventListener("input", draw);
+  figure.addEventListener("input", (event) => changed(event.target.name));
+  drawStrip();
   draw();
-}
-addEventListener("beforeprint", () => { for (const part of document.querySelectorAll("details")) part.open = true; });
+};
+
+for (const figure of document.querySelectorAll("figure.pictures")) bringToLife(figure);
+// On paper nothing can be unfolded; afterwards all is as it was.
+let unfolded = [];
+addEventListener("beforeprint", () => {
+  unfolded = [...document.querySelectorAll("details:not([open])")];
+  for (const part of unfolded) part.open = true;
+});
+addEventListener("afterprint", () => { for (const part of unfolded) part.open = false; });

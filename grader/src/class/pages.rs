@@ -1,0 +1,74 @@
+//! The pages of one hand-in of a class: pictures are rendered once, pages made again when a mark has changed.
+
+use std::path::Path;
+
+use super::record::{Record, Shelf};
+use crate::build::compile;
+use crate::error::{Error, Result};
+use crate::grade::Grader;
+use crate::marks::Marks;
+use crate::report::pictures::{load, pictures, save, thumbnail};
+use crate::report::{Report, remove_pages, write_pages};
+use crate::submission::Submission;
+use crate::workspace::Workspace;
+
+/// Scenes of which pages have pictures: fewer than when one hand-in is graded, since those of a class take megabytes each.
+const SCENES: usize = 2;
+
+/// Renders pictures of a hand-in that has just been graded, and keeps them and a small one.
+pub(super) fn render(
+    workspace: &Workspace,
+    grader: &Grader,
+    submission: &Submission,
+    report: &Report,
+    shelf: &Shelf,
+) -> Result<()> {
+    let options = grader.options();
+    let shown = match compile(grader.framework(), &submission.source, &options.limits)? {
+        Ok(hand_in) => pictures(workspace, &hand_in, report, options.threads, options.seed, SCENES)?,
+        Err(_) => Vec::new(),
+    };
+    save(&shown, &shelf.pictures())?;
+    match thumbnail(&shown) {
+        Some(png) => {
+            Ok(arty::image::write_aside(&shelf.thumbnail(), |file| std::io::Write::write_all(file, &png))?)
+        }
+        None => remove(&shelf.thumbnail()),
+    }
+}
+
+/// Makes both pages of a graded hand-in, unless those that are there were made of the same report and marks. `path` is
+/// what students call their file.
+pub(super) fn make(shelf: &Shelf, record: &Record, marks: &Marks, path: &str) -> Result<()> {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(record.key.as_bytes()).update(record.report.as_bytes()).update(path.as_bytes());
+    for mark in marks.of(&record.source) {
+        hasher.update(format!("{mark:?}").as_bytes());
+    }
+    let made_of = hasher.finalize().to_hex().to_string();
+    if std::fs::read_to_string(shelf.made_of()).is_ok_and(|earlier| earlier == made_of) {
+        return Ok(());
+    }
+    let mut report = Report::load(&shelf.report())?;
+    marks.apply(&mut report);
+    let shown = load(&shelf.pictures()).unwrap_or_default();
+    write_pages(&report, &shown, &shelf.report(), Some(path))?;
+    // Last, so that pages of which one is missing are made again.
+    Ok(arty::image::write_aside(&shelf.made_of(), |file| {
+        std::io::Write::write_all(file, made_of.as_bytes())
+    })?)
+}
+
+/// Removes what an earlier hand-in of the same student has left.
+pub(super) fn clear(shelf: &Shelf) -> Result<()> {
+    remove(&shelf.made_of())?;
+    remove(&shelf.thumbnail())?;
+    remove_pages(&shelf.report())
+}
+
+fn remove(path: &Path) -> Result<()> {
+    match std::fs::remove_file(path) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(Error::file(path, error)),
+        _ => Ok(()),
+    }
+}

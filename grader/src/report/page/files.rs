@@ -1,0 +1,61 @@
+//! The pages as files beside a report.
+
+use std::path::{Path, PathBuf};
+
+use super::page;
+use crate::error::{Error, Result};
+use crate::report::pictures::Picture;
+use crate::report::{Edition, Report, for_student};
+
+/// Writes both editions of the page: `report.html`, which is the student's, and `report-tutor.html`. With `path`, the
+/// student's names this path instead of the hand-in's.
+///
+/// # Errors
+/// If a file cannot be written.
+pub fn write_pages(report: &Report, pictures: &[Picture], file: &Path, path: Option<&str>) -> Result<()> {
+    let (student, edition) = for_student(report, path)?;
+    let [for_students, for_tutors] = pages_beside(file);
+    for (target, report, edition) in [(for_students, &student, edition), (for_tutors, report, Edition::Tutor)]
+    {
+        let text = small_enough(report, pictures, edition);
+        arty::image::write_aside(&target, |writer| std::io::Write::write_all(writer, text.as_bytes()))?;
+    }
+    Ok(())
+}
+
+/// The most bytes of a page: it is sent by mail, and kept for everybody.
+const LARGEST: usize = 3_000_000;
+
+/// The page, without its last pictures if it would be too large with them.
+fn small_enough(report: &Report, pictures: &[Picture], edition: Edition) -> String {
+    let shown = |count: usize| page(report, &pictures[..count], edition);
+    let sizes = (1..=pictures.len()).rev();
+    sizes.map(shown).find(|text| text.len() <= LARGEST).unwrap_or_else(|| shown(0))
+}
+
+/// Removes the pages of an earlier grade, which would lie beside the report of another, and their pictures.
+///
+/// # Errors
+/// If one is there and cannot be removed.
+pub fn remove_pages(file: &Path) -> Result<()> {
+    let [student, tutor] = pages_beside(file);
+    for path in [student, tutor, pictures_beside(file)] {
+        match std::fs::remove_file(&path) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                return Err(Error::file(&path, error));
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+/// The student's edition, `report.html`, and the tutor's, `report-tutor.html`, beside a `report.json`.
+pub fn pages_beside(file: &Path) -> [PathBuf; 2] {
+    ["report.html", "report-tutor.html"].map(|name| file.with_file_name(name))
+}
+
+/// The pictures of the pages, beside a `report.json`.
+pub fn pictures_beside(file: &Path) -> PathBuf {
+    file.with_file_name("pictures.bin")
+}
