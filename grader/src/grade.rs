@@ -8,6 +8,7 @@ use arty::scene::Scene;
 
 use crate::build::{BuildFailure, Framework, HandInProgram, compile, solution};
 use crate::checks::{Bench, JudgedScene};
+use crate::diagnosis::Catalogue;
 use crate::error::{Error, Result};
 use crate::host_process::HostProcess;
 use crate::intake;
@@ -67,6 +68,8 @@ pub struct Grader {
     /// What means nothing in its scenes, whatever the hand-in.
     left_out: Vec<LeftOut>,
     provenance: BTreeMap<String, String>,
+    /// The mistakes that are known.
+    catalogue: Catalogue,
 }
 
 impl Grader {
@@ -105,6 +108,7 @@ impl Grader {
             workspace: workspace.clone(),
             left_out,
             provenance,
+            catalogue: Catalogue::load(&workspace.assignment(&options.assignment))?,
         })
     }
 
@@ -235,7 +239,7 @@ impl Grader {
             non_finite: checks.iter().map(|check| check.non_finite).sum(),
             negative: checks.iter().map(|check| check.negative).sum(),
         };
-        Ok(Report {
+        let mut report = Report {
             schema: SCHEMA.to_owned(),
             submission: SubmissionInfo {
                 path: clean(&submission.path.display().to_string()),
@@ -262,7 +266,9 @@ impl Grader {
             provenance: provenance.clone(),
             convergence: None,
             images: Vec::new(),
-        })
+        };
+        report.diagnosis = self.catalogue.diagnose(&report, &submission.source);
+        Ok(report)
     }
 }
 

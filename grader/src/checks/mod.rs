@@ -140,6 +140,7 @@ impl Bench<'_> {
             weights: None,
             coefficients: Vec::new(),
             variance_ratios: Vec::new(),
+            details: BTreeMap::new(),
             remarks: Vec::new(),
             z: Vec::new(),
             repeat: format!("{} --only={}", self.command, spec.id()),

@@ -68,6 +68,7 @@ pub(crate) fn report(text: &str) -> Report {
             weights: None,
             coefficients: vec![1.0, 0.5],
             variance_ratios: Vec::new(),
+            details: BTreeMap::new(),
             remarks: vec![text()],
             z: Vec::new(),
             repeat: text(),
