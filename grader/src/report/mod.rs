@@ -275,11 +275,11 @@ pub struct LeftOut {
 /// A likely cause.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Diagnosis {
-    /// Its number in the catalogue of mistakes.
+    /// Its name in the catalogue of causes, or `unknown`.
     pub mistake: String,
     /// What it is.
     pub title: String,
-    /// How sure that is, in [0, 1].
+    /// How sure that is among all mistakes that are known, in [0, 1].
     pub confidence: f64,
     /// What was observed.
     pub evidence: String,

@@ -3,6 +3,7 @@
 //! Everything that comes from the report is escaped by the template; style, script, plot and numbers of pictures are
 //! our own. A content security policy forbids the page to load anything.
 
+mod causes;
 mod viewer;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -45,7 +46,7 @@ pub fn page(report: &Report, pictures: &[Picture]) -> String {
                         pre { (failure.messages) }
                     }
                     (explanations(report))
-                    (diagnosis(report))
+                    (causes::section(report))
                     (checks(report))
                     @if !pictures.is_empty() {
                         h2 { "Pictures" }
@@ -105,19 +106,6 @@ fn explanations(report: &Report) -> Markup {
                     Some(text) => pre { (text) },
                     None => p { "not a text: open the file itself (" (explanation.bytes) " bytes, BLAKE3 " code { (explanation.hash) } ")" }
                 }
-            }
-        }
-    }
-}
-
-fn diagnosis(report: &Report) -> Markup {
-    html! {
-        @if !report.diagnosis.is_empty() {
-            h2 { "Likely causes" }
-            @for cause in &report.diagnosis {
-                h3 { (cause.title) " " span.soft { "(" (format!("{:.0}", 100.0 * cause.confidence)) " % sure)" } }
-                p { (cause.evidence) }
-                p { (cause.hint) }
             }
         }
     }
