@@ -52,7 +52,9 @@ impl Confusion {
     }
 
     /// As Markdown: for each cause what was named first, and which cases went wrong.
-    pub fn table(&self, made_by: &str) -> String {
+    /// `early` is what became of the same cases in grades that stop early, each with the number of failures that they stop
+    /// after.
+    pub fn table(&self, made_by: &str, early: &[(usize, Self)]) -> String {
         let ([wrong, first, named], [right, blamed]) = (self.wrong(), self.right());
         let percent = |count: usize| 100.0 * count as f64 / wrong.max(1) as f64;
         let mut text = format!(
@@ -60,11 +62,21 @@ impl Confusion {
              the same grade. \n\n\
              - right cause first: {first} of {wrong} ({:.1} %)\n\
              - right cause among the first three: {named} of {wrong} ({:.1} %)\n\
-             - a cause named for a correct hand-in: {blamed} of {right}\n\n\
-             | cause | cases | first | named | named first instead |\n|---|--:|--:|--:|---|\n",
+             - a cause named for a correct hand-in: {blamed} of {right}\n",
             percent(first),
             percent(named),
         );
+        for (failures, stopped) in early {
+            let [_, first, named] = stopped.wrong();
+            let _ = writeln!(
+                text,
+                "- if each task stops after {failures} checks that do not pass: first {first} ({:.1} %), among three {named} \
+                 ({:.1} %)",
+                percent(first),
+                percent(named)
+            );
+        }
+        text += "\n| cause | cases | first | named | named first instead |\n|---|--:|--:|--:|---|\n";
         let mut rows: BTreeMap<&str, Vec<&Case>> = BTreeMap::new();
         for case in &self.cases {
             if let Some(truth) = &case.truth {

@@ -177,6 +177,38 @@ fn not_begun(untouched: Untouched) -> Found {
 mod tests {
     use super::*;
 
+    use crate::report::sample::report;
+
+    fn named(report: &Report, source: &str) -> Vec<String> {
+        causes(report, source).into_iter().map(|found| found.diagnosis.mistake).collect()
+    }
+
+    #[test]
+    fn what_stops_the_program_is_named() {
+        let mut report = report("x");
+        report.checks[0].reason = Reason::Crash;
+        report.checks[0].explanation = "it panicked: not yet implemented: the weights".to_owned();
+        assert_eq!(named(&report, ""), ["todo-left"]);
+        report.checks[0].explanation = "it panicked: index out of bounds".to_owned();
+        assert_eq!(named(&report, ""), ["panics"]);
+        report.checks[0].reason = Reason::Timeout;
+        assert_eq!(named(&report, ""), ["does-not-finish"]);
+        report.checks[0].reason = Reason::Bias;
+        assert!(named(&report, "").is_empty());
+        assert_eq!(named(&report, BLOCK), ["not-begun"]);
+    }
+
+    #[test]
+    fn the_first_error_of_the_compiler_is_quoted() {
+        let mut report = report("x");
+        let messages = "warning: w\nerror[E0425]: cannot find value `x`\nerror: other\n".to_owned();
+        report.submission.build_failure = Some(crate::build::BuildFailure { messages, line: Some(7) });
+        let found = causes(&report, BLOCK);
+        assert_eq!(found.len(), 1);
+        assert_eq!(found[0].diagnosis.evidence, "error[E0425]: cannot find value `x` (line 7)");
+        assert!(found[0].is_everything());
+    }
+
     const BLOCK: &str = "// TASK 5.1a\n    let weight = 1.0;\n// what to do\n// END 5.1a\n";
 
     #[test]

@@ -82,6 +82,21 @@ impl Vector {
         self.0.values().all(|seen| seen.state == State::Pass)
     }
 
+    /// What a grade would have seen that stops in each task after so many checks that do not pass. `order` has task and
+    /// name of all checks, in the order in which they are run.
+    pub fn stopped_after(&self, order: &[(String, String)], failures: usize) -> Self {
+        let mut failed: BTreeMap<&str, usize> = BTreeMap::new();
+        let mut stopped = Self::default();
+        for (task, check) in order {
+            let count = failed.entry(task).or_default();
+            if let Some(seen) = self.0.get(check).filter(|_| *count < failures) {
+                *count += usize::from(seen.state != State::Pass);
+                stopped.0.insert(check.clone(), seen.clone());
+            }
+        }
+        stopped
+    }
+
     /// The checks of a technique.
     pub(super) fn of_technique(&self, technique: &str) -> Self {
         self.clone().without(|other| other != technique)
