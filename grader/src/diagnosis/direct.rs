@@ -1,5 +1,7 @@
 //! Causes that are seen without comparing anything.
 
+use arty::integrator::Technique;
+
 use super::Found;
 use crate::report::{CheckResult, Diagnosis, Reason, Report};
 use crate::rubric::CheckKind;
@@ -105,6 +107,41 @@ fn late(report: &Report) -> Found {
         &[NEE, MIS],
     )
 }
+
+/// What can be said where no known mistake fits: that direct light is too bright or too dark by the same factor in all
+/// scenes in which only light samples bring it.
+pub(super) fn constant_factor(report: &Report) -> Option<Found> {
+    let direct = report.checks.iter().filter(|check| {
+        check.technique == Technique::Nee
+            && check.max_bounces == 1
+            && matches!(check.check, CheckKind::MeanBias | CheckKind::ClosedForm)
+    });
+    let mut factors: Vec<(f64, &str)> =
+        direct.filter_map(|check| Some((1.0 + check.whole()?[0], check.scene.as_str()))).collect();
+    factors.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let factor = factors.get(factors.len() / 2)?.0;
+    factors.retain(|(other, _)| (other / factor - 1.0).abs() < ALIKE);
+    let scenes: Vec<&str> = factors.iter().map(|(_, scene)| *scene).collect();
+    let is_one = (factor - 1.0).abs() < 2.0 * ALIKE || factor < ALIKE;
+    (scenes.len() >= ENOUGH && !is_one).then(|| {
+        let mut found = cause(
+            "constant-factor",
+            &format!("Each light sample is {factor:.2} times as bright as it should be, whatever the scene"),
+            format!("direct light is that much too bright or too dark in {}, all alike", scenes.join(", ")),
+            "A constant is left out, or is there once too often. Write down the estimator for one point on one light with all \
+             its factors, say of each where it comes from, and compare with your product.",
+            &[],
+        );
+        found.diagnosis.confidence = 0.5;
+        found
+    })
+}
+
+/// Factors that differ by less are the same.
+const ALIKE: f64 = 0.04;
+
+/// Scenes that have to agree.
+const ENOUGH: usize = 4;
 
 /// What the check of weights calls those that are constant, among a result's details.
 const CONSTANT: [&str; 2] = ["constant of light samples", "constant against BSDF samples"];

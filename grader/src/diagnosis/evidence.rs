@@ -4,7 +4,7 @@ use super::distance::of_check;
 use super::observation::{State, Vector, technique};
 use super::rank::Candidate;
 use super::{Catalogue, Cause};
-use crate::report::{CheckResult, Report};
+use crate::report::{CheckResult, Report, Verdict};
 use crate::rubric::CheckKind;
 
 /// How little a check must be apart from the signature to speak for it.
@@ -25,7 +25,7 @@ pub(super) fn sentence(
     let of_technique = |check: &&CheckResult| candidate.technique.is_none_or(|it| technique(&check.id) == it);
     let telling = |check: &CheckResult| -> Option<f64> {
         let (seen, expected) = (vector.0.get(&check.id)?, signature.0.get(&check.id)?);
-        let agrees = of_check(seen, expected) <= AGREES;
+        let agrees = of_check(seen, expected).is_some_and(|apart| apart <= AGREES);
         agrees.then(|| mean_of_others(catalogue, candidate.cause, vector, check)).flatten()
     };
     let best = |passes: bool| {
@@ -33,16 +33,13 @@ pub(super) fn sentence(
             vector.0.get(&check.id).is_some_and(|seen| (seen.state == State::Pass) == passes)
         };
         let checks = report.checks.iter().filter(of_technique).filter(of_state);
-        let scored = checks.filter(|check| check.check != CheckKind::HiddenVariants);
         let mut scored: Vec<(&CheckResult, f64)> =
-            scored.filter_map(|check| Some((check, telling(check)?))).collect();
-        // Of checks that tell alike the earliest: it is the simplest.
+            checks.filter_map(|check| Some((check, telling(check)?))).collect();
+        // Of checks that tell nearly as much as the best, the one that is simplest to understand, and of these the first.
         scored.sort_by(|a, b| b.1.total_cmp(&a.1));
         let (_, most) = *scored.first()?;
-        scored
-            .into_iter()
-            .filter(|(_, score)| *score >= 0.9 * most)
-            .min_by_key(|(check, _)| place(report, check))
+        let nearly = scored.into_iter().filter(|(_, score)| *score >= NEARLY * most);
+        nearly.min_by_key(|(check, _)| (effort(check), place(report, check)))
     };
     let wrong = best(false).map(|(check, _)| check);
     let fallback = || {
@@ -59,6 +56,22 @@ pub(super) fn sentence(
     text
 }
 
+/// Which share of the most that a check tells is nearly as much.
+const NEARLY: f64 = 0.6;
+
+/// How hard it is to see what a check's result means.
+fn effort(check: &CheckResult) -> u32 {
+    let exact = check.whole().is_some_and(|[effect, margin]| effect.abs() > 10.0 * margin);
+    match check.check {
+        CheckKind::MisWeights => 0,
+        CheckKind::ClosedForm | CheckKind::MeanBias if check.max_bounces == 1 && exact => 0,
+        CheckKind::WhiteFurnace | CheckKind::LightPick | CheckKind::RayBudget | CheckKind::Randomness => 1,
+        CheckKind::ClosedForm | CheckKind::MeanBias if exact || check.verdict == Verdict::Pass => 1,
+        CheckKind::Efficiency | CheckKind::Metamorphic => 2,
+        _ => 3,
+    }
+}
+
 fn place(report: &Report, check: &CheckResult) -> usize {
     report.checks.iter().position(|other| std::ptr::eq(other, check)).unwrap_or(usize::MAX)
 }
@@ -69,7 +82,7 @@ fn mean_of_others(catalogue: &Catalogue, own: &Cause, vector: &Vector, check: &C
     let others = catalogue.causes().iter().filter(|cause| cause.id != own.id);
     let distances: Vec<f64> = others
         .filter_map(|cause| catalogue.signatures.get(cause.variants.first()?)?.0.get(&check.id))
-        .map(|other| of_check(seen, other))
+        .filter_map(|other| of_check(seen, other))
         .collect();
     (!distances.is_empty()).then(|| distances.iter().sum::<f64>() / distances.len() as f64)
 }

@@ -125,6 +125,9 @@ impl Catalogue {
             found.extend(self.compared(report, &vector));
         }
         if found.is_empty() {
+            found.extend(direct::constant_factor(report));
+        }
+        if found.is_empty() {
             return vec![unknown()];
         }
         found.truncate(MOST);
@@ -192,6 +195,12 @@ fn unknown() -> Diagnosis {
 impl Diagnosis {
     /// The line that stands above evidence and hint, which are both empty if the cause is unknown.
     pub fn heading(&self) -> String {
-        if self.mistake == UNKNOWN { self.title.clone() } else { format!("Likely cause: {}", self.title) }
+        if self.mistake == UNKNOWN {
+            self.title.clone()
+        } else if self.confidence < 0.995 {
+            format!("Likely cause ({:.0} % sure): {}", 100.0 * self.confidence, self.title)
+        } else {
+            format!("Likely cause: {}", self.title)
+        }
     }
 }

@@ -67,9 +67,13 @@ pub struct Seen {
 pub struct Vector(pub BTreeMap<String, Seen>);
 
 impl Vector {
-    /// Of a report. Checks that were not run, for whatever reason, are not in it.
+    /// Of a report. Checks that were not run, for whatever reason, are not in it, nor are those whose scenes are other ones
+    /// with each seed.
     pub fn of(report: &Report) -> Self {
         let seen = |check: &CheckResult| {
+            if check.check == CheckKind::HiddenVariants || check.explanation.starts_with(NOT_RUN) {
+                return None;
+            }
             let state = State::of(check)?;
             let numbers = if state == State::Pass { BTreeMap::new() } else { numbers(check) };
             Some((check.id.clone(), Seen { state, numbers }))
@@ -114,6 +118,12 @@ pub(super) fn technique(check: &str) -> &str {
     check.split('/').nth(2).unwrap_or_default()
 }
 
+/// How the explanation of a check begins that was not run, since earlier ones ran out of time.
+const NOT_RUN: &str = "not run";
+
+/// How the names of places begin in which something is wrong.
+pub(super) const PLACE: &str = "is wrong ";
+
 /// The darkest that a mean counts as, relative to what it should be: black has no logarithm.
 const DARKEST: f64 = 0.02;
 
@@ -154,7 +164,7 @@ fn numbers(check: &CheckResult) -> BTreeMap<String, Number> {
         match check.check {
             _ if name.starts_with("whole image") => {}
             CheckKind::Metamorphic | CheckKind::Stability | CheckKind::Randomness => {
-                add(&format!("is wrong {name}"), Number(1.0, 0.0));
+                add(&format!("{PLACE}{name}"), Number(1.0, 0.0));
             }
             CheckKind::LightPick => add(&format!("share {name}"), log(1.0 + value, 0.0)),
             CheckKind::MisWeights if name.starts_with("deviation") => {

@@ -9,6 +9,12 @@ use super::{Catalogue, Cause, MOST};
 /// A cause whose best fit is less likely than this is none.
 const REJECTED: f64 = 1e-3;
 
+/// The same for a cause that is to explain one technique only: with fewer checks, more fits by chance.
+const REJECTED_ALONE: f64 = 0.05;
+
+/// The share of what is wrong that a signature has to say something about.
+const COVERED: f64 = 0.4;
+
 /// Numbers of one hand-in go astray together, so that a difference of distances says this many times less than it
 /// would of independent ones.
 const TOGETHER: f64 = 3.0;
@@ -34,8 +40,9 @@ pub(super) struct Candidate<'a> {
 
 impl Candidate<'_> {
     fn fits(&self) -> bool {
-        let Distance { squared, freedom } = self.distance;
-        ChiSquared::new(f64::from(freedom)).is_ok_and(|distribution| distribution.sf(squared) >= REJECTED)
+        let Distance { squared, freedom, .. } = self.distance;
+        let level = if self.technique.is_some() { REJECTED_ALONE } else { REJECTED };
+        ChiSquared::new(f64::from(freedom)).is_ok_and(|distribution| distribution.sf(squared) >= level)
     }
 }
 
@@ -71,7 +78,8 @@ fn within<'a>(
         let distances = cause.variants.iter().filter_map(|variant| {
             let signature = catalogue.signatures.get(variant)?;
             let distance = Distance::between(vector, signature);
-            explains_something(vector, signature).then_some((variant.as_str(), distance))
+            let comparable = distance.covered >= COVERED && explains_something(vector, signature);
+            comparable.then_some((variant.as_str(), distance))
         });
         let (variant, distance) = distances.min_by(|a, b| a.1.squared.total_cmp(&b.1.squared))?;
         Some(Candidate { cause, variant, technique, confidence: 0.0, distance })

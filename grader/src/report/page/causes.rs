@@ -11,12 +11,7 @@ pub(super) fn section(report: &Report) -> Markup {
             section {
                 h2 { "What probably went wrong" }
                 @for cause in &report.diagnosis {
-                    h3 {
-                        (cause.heading())
-                        @if cause.confidence > 0.0 && cause.confidence < 1.0 {
-                            " " span.soft { "(" (format!("{:.0}", 100.0 * cause.confidence)) " % sure)" }
-                        }
-                    }
+                    h3 { (cause.heading()) }
                     @if !cause.evidence.is_empty() { p { "Seen: " (cause.evidence) } }
                     @if !cause.hint.is_empty() { p { "Think: " (cause.hint) } }
                 }
