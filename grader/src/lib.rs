@@ -12,6 +12,7 @@ pub mod checks;
 pub mod class;
 pub mod commands;
 pub mod convergence;
+pub mod diagnosis;
 pub mod error;
 pub mod export;
 pub mod grade;

@@ -55,6 +55,9 @@ pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult)
     let shares: Vec<Share> = (0..3).map(|channel| Share::of(&means, channel)).collect();
     let worst = shares.iter().enumerate().max_by(|a, b| a.1.ratio.abs().total_cmp(&b.1.ratio.abs()));
     result.effect = worst.map(|(_, share)| share.ratio);
+    let finite =
+        |(name, share): (&str, &Share)| share.ratio.is_finite().then(|| (name.to_owned(), share.ratio));
+    result.details = CHANNELS.into_iter().zip(&shares).filter_map(finite).collect();
     let wrong = shares.iter().position(|share| !share.ratio.is_finite() || share.p_value < LEVEL);
     (result.verdict, result.reason, result.explanation) = match wrong {
         Some(channel) => (

@@ -197,6 +197,7 @@ pub(super) fn describe(result: &mut CheckResult, judgement: &Judgement, toleranc
     result.detectable = Some(judgement.detectable).filter(|effect| effect.is_finite());
     result.samples += judgement.samples;
     result.z = judgement.z.clone();
+    result.enter_whole(&judgement.whole);
     (result.verdict, result.reason, result.explanation) = match judgement.decision {
         Decision::Biased => (
             Verdict::Fail,

@@ -162,6 +162,7 @@ impl Bench<'_> {
             coefficients: Vec::new(),
             coefficient_margins: Vec::new(),
             variance_ratios: Vec::new(),
+            details: BTreeMap::new(),
             remarks: Vec::new(),
             z: Vec::new(),
             repeat: format!("{} --only={}", self.command, spec.id()),

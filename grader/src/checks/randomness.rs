@@ -39,6 +39,7 @@ fn complaint(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult) -> R
     let seeds: Vec<u64> = (0..BATCHES).map(|batch| batch_seed(bench.seed_of(spec), batch)).collect();
     let images = render(bench, spec, &seeds, result)?;
     if let Some((a, b)) = alike(&images) {
+        result.details.insert("images that are the same".to_owned(), 1.0);
         return Ok(Some(format!(
             "different seeds give the same image (batches {a} and {b}): the random numbers are not those of the sampler"
         )));
@@ -47,6 +48,7 @@ fn complaint(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult) -> R
     let reversed: Vec<u64> = seeds.iter().rev().copied().collect();
     let again = render(bench, spec, &reversed, result)?;
     if images.iter().ne(again.iter().rev()) {
+        result.details.insert("images that are not repeatable".to_owned(), 1.0);
         return Ok(Some(
             "the same seed does not give the same image twice: either the random numbers are not those of the sampler, \
              or something is remembered from one path to the next"
@@ -60,6 +62,7 @@ fn complaint(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult) -> R
     let fresh: Vec<u64> = seeds.iter().map(|&seed| batch_seed(seed, 1)).collect();
     let second = found(&render(bench, spec, &fresh, result)?);
     Ok((second.p_value < LEVEL).then(|| {
+        result.details.insert("noise that pixels share".to_owned(), second.excess);
         format!(
             "pixels share their random numbers: the noise of {} is {:.1} times as large as that of independent pixels",
             second.of, second.excess

@@ -21,6 +21,7 @@ mod plan;
 mod policy;
 mod reference;
 mod replay;
+mod signatures;
 mod stability;
 mod trusted;
 mod watch;
@@ -71,6 +72,8 @@ enum Command {
     Reference(reference::Arguments),
     /// Follow one path again and show every call of the hand-in.
     Replay(replay::Arguments),
+    /// Measure how known mistakes look to the checks, and how often they are named (for staff).
+    Signatures(signatures::Arguments),
     /// Measure the limits of the framework in sweeps and extreme scenes (for staff).
     Stability(stability::Arguments),
 }
@@ -95,6 +98,7 @@ pub fn run() -> ExitCode {
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Reference(arguments) => reference::run(&arguments),
         Command::Replay(arguments) => replay::run(&arguments),
+        Command::Signatures(arguments) => signatures::run(&arguments),
         Command::Stability(arguments) => stability::run(&arguments),
     };
     outcome.unwrap_or_else(|error| {

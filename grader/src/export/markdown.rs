@@ -32,13 +32,12 @@ pub fn summary(report: &Report) -> String {
         out += &block(&failure.messages);
     }
     for cause in &report.diagnosis {
-        let _ = writeln!(
-            out,
-            "\n### Likely cause: {}\n\n{}\n\n{}",
-            text(&cause.title),
-            text(&cause.evidence),
-            text(&cause.hint)
-        );
+        let _ = writeln!(out, "\n### {}", text(&cause.heading()));
+        for part in [&cause.evidence, &cause.hint] {
+            if !part.is_empty() {
+                let _ = writeln!(out, "\n{}", text(part));
+            }
+        }
     }
     for task in &report.tasks {
         failures(&mut out, report, task);

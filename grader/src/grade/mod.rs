@@ -11,6 +11,7 @@ use std::time::Instant;
 
 use crate::build::{BuildFailure, Framework, compile};
 use crate::checks::{Bench, JudgedScene};
+use crate::diagnosis::Catalogue;
 use crate::error::Result;
 use crate::host_process::HostProcess;
 use crate::intake;
@@ -74,6 +75,8 @@ pub struct Grader {
     /// What means nothing in its scenes, whatever the hand-in.
     left_out: Vec<LeftOut>,
     provenance: BTreeMap<String, String>,
+    /// The mistakes that are known.
+    catalogue: Catalogue,
 }
 
 impl Grader {
@@ -118,6 +121,7 @@ impl Grader {
             workspace: workspace.clone(),
             left_out,
             provenance,
+            catalogue: Catalogue::load(&workspace.assignment(&options.assignment))?,
         })
     }
 
@@ -254,7 +258,7 @@ impl Grader {
             non_finite: checks.iter().map(|check| check.non_finite).sum(),
             negative: checks.iter().map(|check| check.negative).sum(),
         };
-        Ok(Report {
+        let mut report = Report {
             schema: SCHEMA.to_owned(),
             submission: SubmissionInfo {
                 path: clean(&submission.path.display().to_string()),
@@ -281,6 +285,8 @@ impl Grader {
             provenance: provenance.clone(),
             convergence: None,
             images: Vec::new(),
-        })
+        };
+        report.diagnosis = self.catalogue.diagnose(&report, &submission.source);
+        Ok(report)
     }
 }

@@ -29,7 +29,7 @@ const KEPT_BACK: [&str; 2] = ["scenes/hidden", "references/hidden"];
 const TEST_FILES: [&str; 3] = ["tests.rs", "test_scenes.rs", "sample.rs"];
 
 /// What of an assignment's folder is given; `course.yml` would name those who have longer.
-const OF_ASSIGNMENT: [&str; 3] = ["sheet.md", "rubric.yml", "figures"];
+const OF_ASSIGNMENT: [&str; 5] = ["sheet.md", "rubric.yml", "figures", "causes.yml", "signatures.json"];
 
 /// What of an assignment's folder is given elsewhere, if it is there.
 const MOVED: [(&str, &str); 3] = [

@@ -48,7 +48,8 @@ impl Ledger {
     /// # Errors
     /// If the ledger, or anything that the results depend on, cannot be read.
     pub fn open(folder: &Path, workspace: &Workspace, assignment: &str) -> Result<Self> {
-        std::fs::create_dir_all(folder).map_err(|error| Error::file(folder, error))?;
+        let reports = folder.join("reports");
+        std::fs::create_dir_all(&reports).map_err(|error| Error::file(&reports, error))?;
         let path = folder.join("results.jsonl");
         let text = match std::fs::read_to_string(&path) {
             Ok(text) => text,
@@ -79,7 +80,9 @@ impl Ledger {
         stop: impl Fn() -> bool + Sync,
         on_record: impl Fn(&Record) + Sync,
     ) -> Result<()> {
-        let is_known = |variant: &&Variant| self.records(variant).iter().any(|it| it.seed == options.seed);
+        let is_known = |variant: &&Variant| {
+            self.records(variant).iter().any(|it| it.seed == options.seed && self.report_file(it).is_file())
+        };
         let missing: Vec<&Variant> = variants.iter().copied().filter(|variant| !is_known(variant)).collect();
         if missing.is_empty() {
             return Ok(());
@@ -95,6 +98,8 @@ impl Ledger {
             let path = PathBuf::from(format!("{}.rs", variant.id));
             let report = grader.grade(&Submission { path, source: variant.source.clone() }, |_| {})?;
             let record = record(self.key(variant), variant, options.seed, &report);
+            let file = self.report_file(&record);
+            arty::image::write_aside(&file, |writer| serde_json::to_writer(writer, &report))?;
             let line = serde_json::to_string(&record).map_err(|error| Error::Harness(error.to_string()))?;
             on_record(&record);
             let mut written = written.lock().unwrap_or_else(PoisonError::into_inner);
@@ -108,6 +113,19 @@ impl Ledger {
         let (_, records) = written.into_inner().unwrap_or_else(PoisonError::into_inner);
         self.records.extend(records);
         outcome
+    }
+
+    /// The whole report of a result.
+    ///
+    /// # Errors
+    /// If it is not there.
+    pub fn report(&self, record: &Record) -> Result<Report> {
+        Report::load(&self.report_file(record))
+    }
+
+    fn report_file(&self, record: &Record) -> PathBuf {
+        let name = format!("{}-{}-{}.json", record.variant, record.seed, &record.key[..8]);
+        self.path.with_file_name("reports").join(name)
     }
 
     fn key(&self, variant: &Variant) -> String {
@@ -133,13 +151,14 @@ fn record(key: String, variant: &Variant, seed: u64, report: &Report) -> Record 
 }
 
 /// Folders of what neither makes nor judges an image.
-const IRRELEVANT: [&str; 14] = [
+const IRRELEVANT: [&str; 15] = [
     "algorithms",
     "calibration",
     "class",
     "cli",
     "commands",
     "convergence",
+    "diagnosis",
     "export",
     "handout",
     "image_error",

@@ -23,6 +23,7 @@ use crate::intake::{self, Explanation};
 use crate::rubric::CheckKind;
 use crate::sandbox::{Layers, Level, both, missing};
 use crate::scan::Finding;
+use crate::statistics::bias::Comparison;
 
 pub use edition::{Edition, for_student, is_hidden_name};
 pub(crate) use page::{document, plots};
@@ -178,6 +179,9 @@ pub struct CheckResult {
     /// How noisy the hand-in is, where that was looked at.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub variance_ratios: Vec<VarianceOf>,
+    /// What else tells one mistake from another, by name; which names there are is up to the kind of check.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub details: BTreeMap<String, f64>,
     /// What is worth knowing, but costs no points.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub remarks: Vec<String>,
@@ -188,6 +192,27 @@ pub struct CheckResult {
     /// The command that repeats it.
     pub repeat: String,
 }
+
+impl CheckResult {
+    /// The relative error of the whole image's mean, under the names by which [`Self::whole`] finds it.
+    pub(crate) fn enter_whole(&mut self, whole: &Comparison) {
+        let values = [(WHOLE, whole.relative()), (WHOLE_MARGIN, whole.relative_margin(0.99))];
+        self.details = values
+            .into_iter()
+            .filter(|(_, value)| value.is_finite())
+            .map(|(name, value)| (name.to_owned(), value))
+            .collect();
+    }
+
+    /// The relative error of the whole image's mean, and half the width of its 99 % interval; none where no picture was
+    /// judged, or it should be black.
+    pub fn whole(&self) -> Option<[f64; 2]> {
+        Some([*self.details.get(WHOLE)?, *self.details.get(WHOLE_MARGIN)?])
+    }
+}
+
+const WHOLE: &str = "whole image";
+const WHOLE_MARGIN: &str = "whole image, margin";
 
 /// How noisy a hand-in is, compared with a technique.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -258,11 +283,11 @@ pub struct LeftOut {
 /// A likely cause.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Diagnosis {
-    /// Its number in the catalogue of mistakes.
+    /// Its name in the catalogue of causes, or `unknown`.
     pub mistake: String,
     /// What it is.
     pub title: String,
-    /// How sure that is, in [0, 1].
+    /// How sure that is among all mistakes that are known, in [0, 1].
     pub confidence: f64,
     /// What was observed.
     pub evidence: String,

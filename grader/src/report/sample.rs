@@ -70,6 +70,7 @@ pub(crate) fn report(text: &str) -> Report {
             coefficients: vec![1.0, 0.5],
             coefficient_margins: vec![0.01, 0.02],
             variance_ratios: Vec::new(),
+            details: BTreeMap::new(),
             remarks: vec![text()],
             z: Vec::new(),
             repeat: text(),

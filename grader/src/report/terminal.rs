@@ -43,6 +43,7 @@ fn write_summary(out: &mut impl Write, report: &Report, width: Option<usize>) ->
     }
     writeln!(out, "{}", table(report, width))?;
     paragraph(out, "", &sum(report), width)?;
+    write_causes(out, report, width)?;
     for explanation in &report.submission.explanations {
         let name = harmless(&explanation.name);
         let bytes = explanation.bytes;
@@ -65,11 +66,6 @@ fn write_summary(out: &mut impl Write, report: &Report, width: Option<usize>) ->
         write_failures(out, task, report, width)?;
     }
     write_remarks(out, report, width)?;
-    for cause in &report.diagnosis {
-        writeln!(out, "\n{}", bold(&format!("Likely cause: {}", cause.title)))?;
-        paragraph(out, "  ", &cause.evidence, width)?;
-        paragraph(out, "  ", &cause.hint, width)?;
-    }
     let apart = !report.sandbox.findings.is_empty() || report.sandbox.level < Level::Strong;
     if apart {
         writeln!(out)?;
@@ -81,6 +77,20 @@ fn write_summary(out: &mut impl Write, report: &Report, width: Option<usize>) ->
     if report.sandbox.level < Level::Strong {
         let (level, missing) = (report.sandbox.level, &report.sandbox.missing);
         paragraph(out, "", &format!("sandbox: {level}: {missing} (cargo grader doctor)"), width)?;
+    }
+    Ok(())
+}
+
+/// What probably went wrong, with the observation that decided and something to think about.
+fn write_causes(out: &mut impl Write, report: &Report, width: Option<usize>) -> io::Result<()> {
+    for cause in &report.diagnosis {
+        writeln!(out)?;
+        paragraph(out, "", &bold(&cause.heading()), width)?;
+        for (begin, text) in [("seen: ", &cause.evidence), ("think: ", &cause.hint)] {
+            if !text.is_empty() {
+                paragraph(out, "  ", &format!("{begin}{text}"), width)?;
+            }
+        }
     }
     Ok(())
 }

@@ -30,6 +30,7 @@ pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult)
     let reference = mean_bias::expected(spec, &judged.reference)?;
     let mut numerics = Numerics::default();
     let mut worst: Option<(&Change, Judgement)> = None;
+    let mut biased = Vec::new();
     for (index, change) in changes.iter().enumerate() {
         let expected = reference.brightened(change.brighter);
         let scenes: Vec<&SceneDescription> = change.scenes.iter().collect();
@@ -38,6 +39,9 @@ pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult)
         picture.seed ^= (index as u64).rotate_right(8);
         let judgement = picture.judge(bench, &mut numerics)?;
         result.samples += judgement.samples;
+        if judgement.decision == Decision::Biased {
+            biased.push((change.name.to_owned(), judgement.whole.relative()));
+        }
         let grade = |decision| match decision {
             Decision::Unbiased => 0,
             Decision::Unclear => 1,
@@ -54,6 +58,7 @@ pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult)
     let samples = result.samples;
     means::describe(result, &judgement, spec.tolerance);
     result.samples = samples;
+    result.details.extend(biased.into_iter().filter(|(_, effect)| effect.is_finite()));
     result.explanation = if result.verdict == Verdict::Pass {
         format!("{} changes of the scene change the picture as they should", changes.len())
     } else {

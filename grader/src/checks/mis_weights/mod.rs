@@ -12,6 +12,8 @@ mod exponents;
 mod scenes;
 mod special;
 
+use std::collections::BTreeMap;
+
 use arty::integrator::Settings;
 use arty::sampler::Sampler;
 use host::protocol::{ProbeJob, ProbedPath};
@@ -24,6 +26,7 @@ use crate::rubric::CheckSpec;
 use exponents::{EXPONENTS, Side};
 use scenes::MANY_LIGHTS;
 pub(super) use scenes::{Configuration, Plan, draw};
+use special::Special;
 
 /// What was found about the weights.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -61,12 +64,20 @@ struct Outcome {
     reason: Reason,
     explanation: String,
     weights: Option<Weights>,
+    details: BTreeMap<String, f64>,
     samples: u64,
 }
 
 impl Outcome {
     fn fail(reason: Reason, explanation: String) -> Self {
-        Self { verdict: Verdict::Fail, reason, explanation, weights: None, samples: 0 }
+        Self {
+            verdict: Verdict::Fail,
+            reason,
+            explanation,
+            weights: None,
+            details: BTreeMap::new(),
+            samples: 0,
+        }
     }
 }
 
@@ -85,6 +96,7 @@ pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult)
     result.reason = outcome.reason;
     result.explanation = outcome.explanation;
     result.weights = outcome.weights;
+    result.details = outcome.details;
     result.samples = outcome.samples;
     Ok(())
 }
@@ -130,13 +142,13 @@ fn observe_all(process: &mut HostProcess, spec: &CheckSpec, seed: u64) -> Result
             samples = MANY;
             continue;
         }
-        let special = special::complaint(process, settings, samples, seed)?;
+        let special = special::look(process, settings, samples, seed)?;
         if all_asked {
             for (_, configuration) in &mut configurations {
                 configuration.p_light *= configuration.lights as f64;
             }
         }
-        let mut outcome = judge(&configurations, &observations, special);
+        let mut outcome = judge(&configurations, &observations, &special);
         outcome.samples = samples * 2 * configurations.len() as u64;
         return Ok(outcome);
     }
@@ -179,7 +191,7 @@ pub(super) fn mean_and_error(paths: &[ProbedPath]) -> Option<(f64, f64)> {
 fn judge(
     configurations: &[(usize, Configuration)],
     observations: &[Observation],
-    special: Option<String>,
+    special: &Special,
 ) -> Outcome {
     let excess = |observation: &Observation| {
         ((observation.light + observation.bsdf - 1.0).abs() - NOISE * observation.error).max(0.0)
@@ -196,14 +208,22 @@ fn judge(
         bsdf_exponents: bsdf.exponents(),
         measured: measured(&moderate),
     };
+    let mut details = special.weights.clone();
+    details.insert("deviation at the first vertex".to_owned(), worst(&observations[..single]));
+    details.insert("deviation at later vertices".to_owned(), worst(&observations[single..]));
+    for (name, side) in [("constant of light samples", &light), ("constant against BSDF samples", &bsdf)] {
+        if let Side::Constant(value) = side {
+            details.insert(name.to_owned(), *value);
+        }
+    }
     let sums_to_one = worst(&observations[..single]) < TOLERATED;
     let verdict = if sums_to_one && rises(&moderate) {
         if worst(&observations[single..]) >= TOLERATED {
             Err("the weights are right at the first vertex of a path and wrong at later ones: what is remembered of \
                  the last bounce is not that of the last bounce"
                 .to_owned())
-        } else if let Some(complaint) = special {
-            Err(complaint)
+        } else if let Some(complaint) = &special.complaint {
+            Err(complaint.clone())
         } else {
             Ok(exponents::remark(&light, weights.largest_deviation))
         }
@@ -223,7 +243,7 @@ fn judge(
         Ok(remark) => (Verdict::Pass, Reason::None, remark),
         Err(complaint) => (Verdict::Fail, Reason::Weights, complaint),
     };
-    Outcome { verdict, reason, explanation, weights: Some(weights), samples: 0 }
+    Outcome { verdict, reason, explanation, weights: Some(weights), details, samples: 0 }
 }
 
 /// The weights over log₁₀ (p_L / p_B), for a plot; what is no number is left out.

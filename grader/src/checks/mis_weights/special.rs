@@ -1,5 +1,7 @@
 //! Light that only one technique can find counts whole.
 
+use std::collections::BTreeMap;
+
 use arty::integrator::Settings;
 use arty::math::{Rgb, Vec3};
 use arty::scene::{
@@ -11,18 +13,28 @@ use super::{NOISE, TOLERATED, mean_and_error};
 use crate::checks::Stop;
 use crate::host_process::HostProcess;
 
-/// The first of these lights that does not count whole, in words.
-pub(super) fn complaint(
+/// What became of these lights.
+#[derive(Default)]
+pub(super) struct Special {
+    /// The first that does not count whole, in words.
+    pub(super) complaint: Option<String>,
+    /// How much of each counts.
+    pub(super) weights: BTreeMap<String, f64>,
+}
+
+/// Looks at each.
+pub(super) fn look(
     process: &mut HostProcess,
     settings: Settings,
     samples: u64,
     seed: u64,
-) -> Result<Option<String>, Stop> {
+) -> Result<Special, Stop> {
     let cases = [
         ("a light that the camera sees", seen_by_camera(), 1.0),
         ("a light that is hit after a delta bounce", after_delta(), 1.0),
         ("a light without an area", point_light(), 1.0),
     ];
+    let mut special = Special::default();
     for (name, scene, expected) in cases {
         let paths = process.probe(&ProbeJob {
             settings,
@@ -32,16 +44,17 @@ pub(super) fn complaint(
             stratified: false,
         })??;
         let Some((mean, error)) = mean_and_error(&paths[0]) else {
-            return Ok(Some(format!("{name} gives NaN or infinity")));
+            special.complaint.get_or_insert_with(|| format!("{name} gives NaN or infinity"));
+            continue;
         };
+        special.weights.insert(name.to_owned(), mean);
         if (mean - expected).abs() > TOLERATED + NOISE * error {
-            let complaint = format!(
-                "{name} has the weight {mean:.3}; it can be found in one way only, so it should be 1"
-            );
-            return Ok(Some(complaint));
+            special.complaint.get_or_insert_with(|| {
+                format!("{name} has the weight {mean:.3}; it can be found in one way only, so it should be 1")
+            });
         }
     }
-    Ok(None)
+    Ok(special)
 }
 
 /// The camera looks straight at the light.

@@ -140,6 +140,9 @@ fn judge(configuration: &Configuration, light: f64, bsdf: f64, paths: &[Vec<Prob
     if (sum - 1.0).abs() <= TOLERATED + noise { Outcome::Right } else { Outcome::Sum(sum) }
 }
 
+/// How all findings of this part begin.
+pub(super) const BEGINNING: &str = "with densities per solid angle";
+
 /// One finding for all pairs that fail alike: the first of them, and how many there are.
 fn describe(pairs: &[Pair], judged: bool) -> Vec<Finding> {
     let mut findings = Vec::new();
@@ -150,7 +153,7 @@ fn describe(pairs: &[Pair], judged: bool) -> Vec<Finding> {
         let bad = all.iter().filter(|pair| matches!(pair.outcome, Outcome::NoRadiance(..))).count() as u64;
         findings.push(Finding {
             text: format!(
-                "with densities per solid angle of {:.0e} (light) and {:.0e} (BSDF): {} ({count} of {} pairs of densities)",
+                "{BEGINNING} of {:.0e} (light) and {:.0e} (BSDF): {} ({count} of {} pairs of densities)",
                 first.light,
                 first.bsdf,
                 words(first),

@@ -30,6 +30,16 @@ struct Finding {
     anomalies: [u64; 2],
 }
 
+impl Finding {
+    /// Where it was found, the same for all hand-ins.
+    fn key(&self) -> String {
+        match self.text.split_once(": ") {
+            Some((place, _)) if !place.starts_with(densities::BEGINNING) => place.to_owned(),
+            _ => densities::BEGINNING.to_owned(),
+        }
+    }
+}
+
 /// What a part has found, and how many paths that took; or what the hand-in did instead of answering.
 type Found = error::Result<Result<(Vec<Finding>, u64), Fault>>;
 
@@ -66,6 +76,7 @@ fn conclude(result: &mut CheckResult, findings: Vec<Finding>) {
         result.non_finite += finding.anomalies[0];
         result.negative += finding.anomalies[1];
     }
+    result.details = judged.iter().map(|finding| (finding.key(), 1.0)).collect();
     (result.verdict, result.reason, result.explanation) = match judged.first() {
         Some(first) => {
             let reason = if judged.iter().any(|finding| finding.anomalies != [0; 2]) {

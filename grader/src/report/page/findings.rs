@@ -53,19 +53,6 @@ pub(super) fn explanations(report: &Report) -> Markup {
     }
 }
 
-pub(super) fn diagnosis(report: &Report) -> Markup {
-    html! {
-        @if !report.diagnosis.is_empty() {
-            h2 { "Likely causes" }
-            @for cause in &report.diagnosis {
-                h3 { (cause.title) " " span.soft { "(" (format!("{:.0}", 100.0 * cause.confidence)) " % sure)" } }
-                p { (cause.evidence) }
-                p { (cause.hint) }
-            }
-        }
-    }
-}
-
 /// All checks of each task. Those that did not pass are unfolded.
 pub(super) fn checks(report: &Report, edition: Edition) -> Markup {
     html! {

@@ -3,6 +3,7 @@
 //! Everything that comes from the report is escaped by the template; style, script, plots and numbers of pictures are
 //! our own. A content security policy forbids the page to load anything, and to run any script but its own.
 
+mod causes;
 pub(crate) mod document;
 mod files;
 mod findings;
@@ -39,7 +40,7 @@ pub fn page(report: &Report, pictures: &[Picture], edition: Edition) -> String {
                 h2 { "It does not compile" }
                 pre tabindex="0" { (failure.messages) }
             }
-            (findings::diagnosis(report))
+            (causes::section(report))
             (findings::explanations(report))
             (findings::checks(report, edition))
             @let shown = pictures.iter().filter(|picture| edition == Edition::Tutor || !super::is_hidden_name(&picture.scene));

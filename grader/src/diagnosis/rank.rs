@@ -1,0 +1,124 @@
+//! Which mistakes look most like what was seen?
+
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+use super::distance::Distance;
+use super::observation::{State, Vector};
+use super::{Catalogue, Cause, MOST};
+
+/// A cause whose best fit is less likely than this is none.
+const REJECTED: f64 = 1e-3;
+
+/// The same for a cause that is to explain one technique only: with fewer checks, more fits by chance.
+const REJECTED_ALONE: f64 = 0.05;
+
+/// The share of what is wrong that a signature has to say something about.
+const COVERED: f64 = 0.4;
+
+/// Numbers of one hand-in go astray together, so that a difference of distances says this many times less than it
+/// would of independent ones.
+const TOGETHER: f64 = 3.0;
+
+/// Causes that are less likely than this, all in all, are not named.
+const NOT_WORTH_NAMING: f64 = 0.04;
+
+/// By how much two mistakes have to fit better than one for two to be believed.
+const TWO_INSTEAD_OF_ONE: f64 = 15.0;
+
+/// A cause that fits.
+#[derive(Clone, Debug)]
+pub(super) struct Candidate<'a> {
+    pub(super) cause: &'a Cause,
+    /// The variant of the cause that fits best.
+    pub(super) variant: &'a str,
+    /// The technique that it was compared in; none if in all.
+    pub(super) technique: Option<&'static str>,
+    /// How likely it is among all that are known, in [0, 1].
+    pub(super) confidence: f64,
+    distance: Distance,
+}
+
+impl Candidate<'_> {
+    fn fits(&self) -> bool {
+        let Distance { squared, freedom, .. } = self.distance;
+        let level = if self.technique.is_some() { REJECTED_ALONE } else { REJECTED };
+        ChiSquared::new(f64::from(freedom)).is_ok_and(|distribution| distribution.sf(squared) >= level)
+    }
+}
+
+/// The causes that fit, the likeliest first; none if none does. If no single mistake explains everything, one for each
+/// technique may.
+pub(super) fn rank<'a>(catalogue: &'a Catalogue, vector: &Vector) -> Vec<Candidate<'a>> {
+    let joint = within(catalogue, vector, None);
+    let parts: Vec<Vec<Candidate<'a>>> = ["nee", "mis"]
+        .into_iter()
+        .map(|technique| (technique, vector.of_technique(technique)))
+        .filter(|(_, part)| !part.is_right())
+        .map(|(technique, part)| within(catalogue, &part, Some(technique)))
+        .collect();
+    let best = |ranking: &[Candidate<'a>]| ranking.first().filter(|it| it.fits()).cloned();
+    let firsts: Vec<Candidate<'a>> = parts.iter().filter_map(|part| best(part)).collect();
+    let apart = firsts.iter().fold(Distance::default(), |sum, first| sum.plus(first.distance));
+    let all_explained = !parts.is_empty() && firsts.len() == parts.len();
+    let one = best(&joint)
+        .filter(|one| !(all_explained && apart.squared + TWO_INSTEAD_OF_ONE < one.distance.squared));
+    match one {
+        Some(_) => worth_naming(joint),
+        None => merge(parts.into_iter().map(worth_naming).collect()),
+    }
+}
+
+/// All causes by their distance, where there is anything to compare.
+fn within<'a>(
+    catalogue: &'a Catalogue,
+    vector: &Vector,
+    technique: Option<&'static str>,
+) -> Vec<Candidate<'a>> {
+    let candidate = |cause: &'a Cause| {
+        let distances = cause.variants.iter().filter_map(|variant| {
+            let signature = catalogue.signatures.get(variant)?;
+            let distance = Distance::between(vector, signature);
+            let comparable = distance.covered >= COVERED && explains_something(vector, signature);
+            comparable.then_some((variant.as_str(), distance))
+        });
+        let (variant, distance) = distances.min_by(|a, b| a.1.squared.total_cmp(&b.1.squared))?;
+        Some(Candidate { cause, variant, technique, confidence: 0.0, distance })
+    };
+    let mut all: Vec<Candidate<'a>> = catalogue.causes().iter().filter_map(candidate).collect();
+    all.sort_by(|a, b| a.distance.squared.total_cmp(&b.distance.squared));
+    let nearest = all.first().map_or(0.0, |first| first.distance.squared);
+    let weight = |it: &Candidate<'_>| (-0.5 * (it.distance.squared - nearest) / TOGETHER).exp();
+    let sum: f64 = all.iter().map(weight).sum();
+    for candidate in &mut all {
+        candidate.confidence = weight(candidate) / sum;
+    }
+    all
+}
+
+/// True if there is a check that is not right on both sides.
+fn explains_something(vector: &Vector, signature: &Vector) -> bool {
+    let mut wrong = vector.0.iter().filter(|(_, seen)| seen.state != State::Pass);
+    wrong.any(|(check, _)| signature.0.get(check).is_some_and(|seen| seen.state != State::Pass))
+}
+
+fn worth_naming(ranking: Vec<Candidate<'_>>) -> Vec<Candidate<'_>> {
+    ranking
+        .into_iter()
+        .filter(|candidate| candidate.fits() && candidate.confidence >= NOT_WORTH_NAMING)
+        .take(MOST)
+        .collect()
+}
+
+/// The first of each part, then the second ones, and so on; each cause once.
+fn merge(parts: Vec<Vec<Candidate<'_>>>) -> Vec<Candidate<'_>> {
+    let mut merged: Vec<Candidate<'_>> = Vec::new();
+    for place in 0..MOST {
+        for candidate in parts.iter().filter_map(|part| part.get(place)) {
+            if merged.iter().all(|other| other.cause.id != candidate.cause.id) {
+                merged.push(candidate.clone());
+            }
+        }
+    }
+    merged.truncate(MOST);
+    merged
+}
