@@ -24,8 +24,8 @@ use crate::sandbox::{Layers, Level, both, missing};
 use crate::scan::Finding;
 
 pub use edition::{Edition, for_student, is_hidden_name};
+pub use page::{Readers, page, pages_beside, pictures_beside, remove_pages, write_pages};
 pub(crate) use page::{document, plots};
-pub use page::{page, pages_beside, pictures_beside, remove_pages, write_pages};
 pub use pictures::{ImageError, Picture};
 pub use progress::Progress;
 pub use terminal::{print_sum, print_summary};

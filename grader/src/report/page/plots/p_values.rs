@@ -62,7 +62,7 @@ mod tests {
         let even = p_values(&[check.clone()], true).expect("there are some");
         assert_eq!((even.tiles, even.pictures), (40, 1));
         assert!((even.unlikely - 0.05).abs() < 1e-9, "{}", even.unlikely);
-        check.z.iter_mut().for_each(|z| *z = 4.0 + *z);
+        check.z.iter_mut().for_each(|z| *z += 4.0);
         assert!(p_values(&[check.clone()], true).expect("there are some").unlikely > 0.8);
         check.z = vec![0.0; 64];
         assert!(p_values(&[check], true).is_none(), "nothing varies");
