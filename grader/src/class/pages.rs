@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 use crate::grade::Grader;
 use crate::marks::Marks;
 use crate::report::pictures::{load, pictures, save, thumbnail};
-use crate::report::{Report, remove_pages, write_pages};
+use crate::report::{Readers, Report, remove_pages, write_pages};
 use crate::submission::Submission;
 use crate::workspace::Workspace;
 
@@ -52,7 +52,7 @@ pub(super) fn make(shelf: &Shelf, record: &Record, marks: &Marks, path: &str) ->
     let mut report = Report::load(&shelf.report())?;
     marks.apply(&mut report);
     let shown = load(&shelf.pictures()).unwrap_or_default();
-    write_pages(&report, &shown, &shelf.report(), Some(path))?;
+    write_pages(&report, &shown, &shelf.report(), Readers::Staff(Some(path)))?;
     // Last, so that pages of which one is missing are made again.
     Ok(arty::image::write_aside(&shelf.made_of(), |file| {
         std::io::Write::write_all(file, made_of.as_bytes())

@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::grade::{Grader, Options};
 use crate::reference::Oracle;
 use crate::report::pictures::{MOST, pictures, save};
-use crate::report::{Picture, Report, pictures_beside, write_pages};
+use crate::report::{Picture, Readers, Report, pages_beside, pictures_beside, write_pages};
 use crate::submission::Submission;
 use crate::workspace::Workspace;
 
@@ -36,5 +36,11 @@ pub(super) fn complete(
     }
     report.save(file)?;
     save(&shown, &pictures_beside(file))?;
-    write_pages(report, &shown, file, None)
+    // Students have no solution, and nobody to write the other edition for.
+    let staff = workspace.solution_file().is_file();
+    let readers = if staff { Readers::Staff(None) } else { Readers::Student };
+    write_pages(report, &shown, file, readers)?;
+    let [student, tutor] = pages_beside(file);
+    eprintln!("page: {}", if staff { tutor } else { student }.display());
+    Ok(())
 }

@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 use crate::intake;
 use crate::marks::{Mark, Marks, why_not};
 use crate::report::pictures::load;
-use crate::report::{Report, pages_beside, pictures_beside, print_summary, write_pages};
+use crate::report::{Readers, Report, pages_beside, pictures_beside, print_summary, write_pages};
 use crate::workspace::Workspace;
 
 /// Record the points that a person gives for a task that is not graded automatically.
@@ -58,7 +58,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
             marks.apply(&mut report);
             report.save(&file)?;
             if pages_beside(&file).iter().any(|page| page.is_file()) {
-                write_pages(&report, &load(&pictures_beside(&file)).unwrap_or_default(), &file, None)?;
+                write_pages(
+                    &report,
+                    &load(&pictures_beside(&file)).unwrap_or_default(),
+                    &file,
+                    Readers::Staff(None),
+                )?;
             }
             print_summary(&report);
         }

@@ -26,8 +26,8 @@ use crate::scan::Finding;
 use crate::statistics::bias::Comparison;
 
 pub use edition::{Edition, for_student, is_hidden_name};
+pub use page::{Readers, page, pages_beside, pictures_beside, remove_pages, write_pages};
 pub(crate) use page::{document, plots};
-pub use page::{page, pages_beside, pictures_beside, remove_pages, write_pages};
 pub use pictures::{ImageError, Picture};
 pub use profile::print_profile;
 pub use progress::Progress;

@@ -7,20 +7,39 @@ use crate::error::{Error, Result};
 use crate::report::pictures::Picture;
 use crate::report::{Edition, Report, for_student};
 
-/// Writes both editions of the page: `report.html`, which is the student's, and `report-tutor.html`. With `path`, the
-/// student's names this path instead of the hand-in's.
+/// For whom pages are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Readers<'a> {
+    /// The student, who has graded: `report.html`.
+    Student,
+    /// Staff, and the student: `report-tutor.html`, too. With a path, the student's page names this instead of the
+    /// hand-in's.
+    Staff(Option<&'a str>),
+}
+
+/// Writes the pages of a report beside its file.
 ///
 /// # Errors
 /// If a file cannot be written.
-pub fn write_pages(report: &Report, pictures: &[Picture], file: &Path, path: Option<&str>) -> Result<()> {
+pub fn write_pages(report: &Report, pictures: &[Picture], file: &Path, readers: Readers<'_>) -> Result<()> {
+    let path = match readers {
+        Readers::Student => None,
+        Readers::Staff(path) => path,
+    };
     let (student, edition) = for_student(report, path)?;
     let [for_students, for_tutors] = pages_beside(file);
+    if readers == Readers::Student {
+        return write(&for_students, &small_enough(&student, pictures, edition));
+    }
     for (target, report, edition) in [(for_students, &student, edition), (for_tutors, report, Edition::Tutor)]
     {
-        let text = small_enough(report, pictures, edition);
-        arty::image::write_aside(&target, |writer| std::io::Write::write_all(writer, text.as_bytes()))?;
+        write(&target, &small_enough(report, pictures, edition))?;
     }
     Ok(())
+}
+
+fn write(path: &Path, text: &str) -> Result<()> {
+    Ok(arty::image::write_aside(path, |writer| std::io::Write::write_all(writer, text.as_bytes()))?)
 }
 
 /// The most bytes of a page: it is sent by mail, and kept for everybody.

@@ -10,7 +10,7 @@ mod findings;
 pub(crate) mod plots;
 mod viewer;
 
-pub use files::{pages_beside, pictures_beside, remove_pages, write_pages};
+pub use files::{Readers, pages_beside, pictures_beside, remove_pages, write_pages};
 
 use maud::{Markup, PreEscaped, html};
 

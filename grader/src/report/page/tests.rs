@@ -67,7 +67,7 @@ fn a_page_that_would_be_too_large_has_fewer_pictures() {
     let file = folder.path().join("report.json");
     let mut large = picture("large");
     large.reference = vec![0; 600_000];
-    write_pages(&report("open"), &[picture("small"), large.clone(), large], &file, None)
+    write_pages(&report("open"), &[picture("small"), large.clone(), large], &file, Readers::Staff(None))
         .expect("it can be written");
     let text = std::fs::read_to_string(&pages_beside(&file)[1]).expect("it is there");
     assert!(
