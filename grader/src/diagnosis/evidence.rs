@@ -137,9 +137,9 @@ fn light(check: &CheckResult) -> &'static str {
     }
 }
 
-/// An explanation without the place of a sample, a guess and a command, all of which follow.
+/// An explanation without the place of a sample, without guesses and without a command, all of which follow.
 fn beginning(explanation: &str) -> &str {
-    let ends = ["; the first: pixel", "; likely cause:", "; see it again"];
+    let ends = ["; the first: pixel", "; likely cause:", "; see it again", ": it is not picked"];
     let end = ends.iter().filter_map(|end| explanation.find(end)).min();
     &explanation[..end.unwrap_or(explanation.len())]
 }
