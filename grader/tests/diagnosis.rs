@@ -4,8 +4,11 @@
 use std::collections::BTreeSet;
 
 use grader::diagnosis::{Catalogue, Confusion, Number, Seen, Signatures, State, UNKNOWN, Vector};
+use grader::grade::{Grader, Options};
 use grader::mutants::{Kind, Variant, variants};
 use grader::rubric::Rubric;
+use grader::sandbox::Limits;
+use grader::submission::Submission;
 use grader::workspace::Workspace;
 
 fn workspace() -> Workspace {
@@ -105,4 +108,60 @@ fn the_table_is_that_of_the_committed_observations() {
     ] {
         assert!(table.contains(&line), "make it anew with `cargo grader signatures`: {line}");
     }
+}
+
+/// Nothing of these programs is the solution's but what they do: their mistakes have to be known all the same.
+#[test]
+fn the_cause_is_named_in_programs_of_another_style() {
+    let options = Options {
+        assignment: "05-nee-mis".into(),
+        seed: 3,
+        threads: 2,
+        only: Vec::new(),
+        limits: Limits::default(),
+    };
+    let grader = Grader::new(&workspace(), &options).expect("the harness works");
+    for (style, from, to, cause) in [
+        (
+            "recursive",
+            "let geometry = hit.cos(wi) * sample.cos / (d * d);",
+            "let geometry = sample.cos / (d * d);",
+            "receiver-cosine-missing",
+        ),
+        (
+            "separate-mis-ray",
+            "let weight = sample.pdf / (sample.pdf + pdf);",
+            "let weight = 1.0 + 0.0 * pdf;",
+            "mis-hit-unweighted",
+        ),
+    ] {
+        let source = all().into_iter().find(|variant| variant.id == style).expect(style).source;
+        assert_eq!(source.matches(from).count(), 1, "{style}");
+        let submission = Submission { path: format!("{style}.rs").into(), source: source.replace(from, to) };
+        let report = grader.grade(&submission, |_| {}).expect("the harness works");
+        let named: Vec<&str> = report.diagnosis.iter().map(|cause| cause.mistake.as_str()).collect();
+        assert_eq!(named.first(), Some(&cause), "{style}: {named:?}");
+        assert!(report.diagnosis.iter().all(|cause| !cause.evidence.is_empty() && !cause.hint.is_empty()));
+    }
+}
+
+/// With `--only`, there is little to compare.
+#[test]
+fn the_starting_file_is_told_where_to_begin() {
+    let workspace = workspace();
+    let source = std::fs::read_to_string(workspace.student_file()).expect("it is there");
+    let submission = Submission { path: "render_pt.rs".into(), source };
+    let options = Options {
+        assignment: "05-nee-mis".into(),
+        seed: 1,
+        threads: 2,
+        only: vec!["light-pick".to_owned()],
+        limits: Limits::default(),
+    };
+    let report = Grader::new(&workspace, &options)
+        .and_then(|grader| grader.grade(&submission, |_| {}))
+        .expect("the harness works");
+    let [only] = &report.diagnosis[..] else { panic!("{:?}", report.diagnosis) };
+    assert_eq!(only.mistake, "not-begun");
+    assert!(only.hint.contains("Begin with 5.1a"), "{}", only.hint);
 }

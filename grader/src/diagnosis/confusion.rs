@@ -59,7 +59,7 @@ impl Confusion {
         let percent = |count: usize| 100.0 * count as f64 / wrong.max(1) as f64;
         let mut text = format!(
             "# Which cause is named for which mistake\n\nMade by `{made_by}`; do not edit. Signatures and cases are never of \
-             the same grade. \n\n\
+             the same grade.\n\n\
              - right cause first: {first} of {wrong} ({:.1} %)\n\
              - right cause among the first three: {named} of {wrong} ({:.1} %)\n\
              - a cause named for a correct hand-in: {blamed} of {right}\n",

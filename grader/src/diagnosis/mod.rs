@@ -128,7 +128,7 @@ impl Catalogue {
             found.extend(direct::constant_factor(report));
         }
         if found.is_empty() {
-            return vec![unknown()];
+            return vec![unknown(rank::something_fits(self, &vector))];
         }
         found.truncate(MOST);
         found.into_iter().map(|found| found.diagnosis).collect()
@@ -180,12 +180,16 @@ impl Found {
     }
 }
 
-/// What is said where nothing fits.
-fn unknown() -> Diagnosis {
+/// What is said where nothing fits, or too much.
+fn unknown(something_fits: bool) -> Diagnosis {
+    let title = if something_fits {
+        "What was looked at fits several of the mistakes that are known: the cause is unknown. More checks may tell."
+    } else {
+        "What the checks have found fits none of the mistakes that are known: the cause is unknown."
+    };
     Diagnosis {
         mistake: UNKNOWN.to_owned(),
-        title: "What the checks have found fits none of the mistakes that are known: the cause is unknown."
-            .to_owned(),
+        title: title.to_owned(),
         confidence: 0.0,
         evidence: String::new(),
         hint: String::new(),

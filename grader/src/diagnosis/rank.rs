@@ -22,6 +22,9 @@ const TOGETHER: f64 = 3.0;
 /// Causes that are less likely than this, all in all, are not named.
 const NOT_WORTH_NAMING: f64 = 0.04;
 
+/// How likely it has to be that one of those that are named is right.
+const TOGETHER_LIKELY: f64 = 0.5;
+
 /// By how much two mistakes have to fit better than one for two to be believed.
 const TWO_INSTEAD_OF_ONE: f64 = 15.0;
 
@@ -101,12 +104,17 @@ fn explains_something(vector: &Vector, signature: &Vector) -> bool {
     wrong.any(|(check, _)| signature.0.get(check).is_some_and(|seen| seen.state != State::Pass))
 }
 
+/// The first few, unless so many fit alike that naming these few would be arbitrary.
 fn worth_naming(ranking: Vec<Candidate<'_>>) -> Vec<Candidate<'_>> {
-    ranking
-        .into_iter()
-        .filter(|candidate| candidate.fits() && candidate.confidence >= NOT_WORTH_NAMING)
-        .take(MOST)
-        .collect()
+    let worth = |candidate: &Candidate<'_>| candidate.fits() && candidate.confidence >= NOT_WORTH_NAMING;
+    let named: Vec<Candidate<'_>> = ranking.into_iter().filter(worth).take(MOST).collect();
+    let together: f64 = named.iter().map(|candidate| candidate.confidence).sum();
+    if together >= TOGETHER_LIKELY { named } else { Vec::new() }
+}
+
+/// True if some cause fits, even if too many do to name any.
+pub(super) fn something_fits(catalogue: &Catalogue, vector: &Vector) -> bool {
+    within(catalogue, vector, None).first().is_some_and(Candidate::fits)
 }
 
 /// The first of each part, then the second ones, and so on; each cause once.

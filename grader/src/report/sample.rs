@@ -6,7 +6,7 @@ use arty::integrator::Technique;
 
 use crate::report::pictures::Picture;
 use crate::report::{
-    CheckResult, Cost, LeftOut, Numerics, Points, Reason, Report, SCHEMA, Sandbox, SubmissionInfo,
+    CheckResult, Cost, Diagnosis, LeftOut, Numerics, Points, Reason, Report, SCHEMA, Sandbox, SubmissionInfo,
     TaskResult, Verdict,
 };
 use crate::rubric::CheckKind;
@@ -76,7 +76,13 @@ pub(crate) fn report(text: &str) -> Report {
             repeat: text(),
         }],
         left_out: vec![LeftOut { check: text(), scene: text(), why: text() }],
-        diagnosis: Vec::new(),
+        diagnosis: vec![Diagnosis {
+            mistake: text(),
+            title: text(),
+            confidence: 0.5,
+            evidence: text(),
+            hint: text(),
+        }],
         numerics: Numerics::default(),
         cost: Cost::default(),
         sandbox: Sandbox::new(

@@ -262,6 +262,8 @@ pub(super) fn word(verdict: Verdict) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnosis::UNKNOWN;
+    use crate::report::Diagnosis;
     use crate::report::sample::report;
 
     fn shown(report: &Report, width: Option<usize>) -> String {
@@ -280,6 +282,23 @@ mod tests {
         }
         // Without a terminal, an explanation is one line.
         assert!(shown(&report(&long), None).contains(&format!("    {long}")));
+    }
+
+    #[test]
+    fn a_cause_that_is_unknown_is_one_sentence() {
+        let mut report = report("x");
+        let text = shown(&report, Some(80));
+        assert!(text.contains("Likely cause (50 % sure): x\n  seen: x\n  think: x\n"), "{text}");
+        let nothing = String::new;
+        report.diagnosis[0] = Diagnosis {
+            mistake: UNKNOWN.to_owned(),
+            title: "Nobody knows.".to_owned(),
+            confidence: 0.0,
+            evidence: nothing(),
+            hint: nothing(),
+        };
+        let text = shown(&report, Some(80));
+        assert!(text.contains("\nNobody knows.\n") && !text.contains("seen:"), "{text}");
     }
 
     #[test]
