@@ -126,11 +126,13 @@ fn table_of(checks: &[CheckResult]) -> Table {
         "what is wrong first",
     ]);
     let mut tasks: Vec<&str> = checks.iter().map(|check| check.task.as_str()).collect();
+    // They come as they end.
+    tasks.sort_unstable();
     tasks.dedup();
     for task in tasks {
-        let of_task: Vec<&CheckResult> = checks.iter().filter(|check| check.task == task).collect();
-        let wrong: Vec<&&CheckResult> =
-            of_task.iter().filter(|check| check.verdict != Verdict::Pass).collect();
+        let run = |check: &&CheckResult| check.task == task && check.verdict != Verdict::LeftOut;
+        let of_task: Vec<&CheckResult> = checks.iter().filter(run).collect();
+        let wrong: Vec<&&CheckResult> = of_task.iter().filter(|check| check.is_lacking()).collect();
         let color = if wrong.is_empty() { Color::Green } else { Color::Red };
         let first =
             wrong.first().map_or(String::new(), |check| format!("{}: {}", check.id, check.explanation));

@@ -1,7 +1,7 @@
 //! Annotations of GitHub Actions: workflow commands that point at lines of the student's file.
 
 use super::Surroundings;
-use super::wording::{shortened, word, wrong};
+use super::wording::{shortened, word};
 use crate::report::Report;
 
 /// GitHub shows so many of a kind for each step.
@@ -27,7 +27,9 @@ pub fn annotations(report: &Report, surroundings: &Surroundings) -> String {
     let mut failed: Vec<_> = report
         .tasks
         .iter()
-        .flat_map(|task| wrong(report, task).enumerate().map(move |(rank, check)| (rank, task, check)))
+        .flat_map(|task| {
+            report.lacking(&task.id).into_iter().enumerate().map(move |(rank, check)| (rank, task, check))
+        })
         .collect();
     failed.sort_by_key(|(rank, _, _)| *rank);
     for (_, task, check) in failed {

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use super::Surroundings;
 use super::markdown::{block, text};
 use super::surroundings::Received;
-use super::wording::{not_covered, shortened, word, wrong};
+use super::wording::{not_covered, shortened, word};
 use crate::report::{Report, TaskResult};
 
 /// Characters of a name.
@@ -81,7 +81,7 @@ fn output(report: &Report, surroundings: &Surroundings) -> String {
 
 fn details(report: &Report, task: &TaskResult) -> String {
     let mut out = text(&task.reason);
-    for check in wrong(report, task) {
+    for check in report.lacking(&task.id) {
         let _ =
             write!(out, "\n\n**{}** {}: {}", word(check.verdict), text(&check.id), text(&check.explanation));
     }

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use quick_junit::{NonSuccessKind, Report as Document, TestCase, TestCaseStatus, TestSuite};
 
-use super::wording::{word, wrong};
+use super::wording::word;
 use crate::report::{CheckResult, Report, TaskResult, Verdict};
 
 /// The document. Names of test cases are told apart by their suites and their class names, which are the tasks.
@@ -43,7 +43,7 @@ fn suite(report: &Report, task: &TaskResult) -> TestSuite {
         suite.add_test_case(case(&task.id, &left_out.check, skipped(&left_out.why), 0.0));
     }
     let unexplained =
-        suite.test_cases.is_empty() || (wrong(report, task).count() == 0 && !task.reason.is_empty());
+        suite.test_cases.is_empty() || (report.lacking(&task.id).is_empty() && !task.reason.is_empty());
     if unexplained {
         // A task without checks of its own, or one that lost its points by another's.
         let status = match task.points {

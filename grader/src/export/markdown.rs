@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::wording::{not_covered, shortened, word, wrong};
+use super::wording::{not_covered, shortened, word};
 use crate::report::{CheckResult, Report, TaskResult};
 
 /// Failed checks of a task that are explained.
@@ -62,7 +62,7 @@ pub fn summary(report: &Report) -> String {
 }
 
 fn failures(out: &mut String, report: &Report, task: &TaskResult) {
-    let failed: Vec<&CheckResult> = wrong(report, task).collect();
+    let failed = report.lacking(&task.id);
     let Some(first) = failed.first() else { return };
     let _ = writeln!(out, "\n### {} {}\n", text(&task.id), text(&task.title));
     for check in failed.iter().take(EXPLAINED) {

@@ -1,11 +1,6 @@
 //! What all formats say alike.
 
-use crate::report::{CheckResult, Points, Report, TaskResult, Verdict};
-
-/// The checks of a task that did not pass, in the order in which they were run.
-pub(super) fn wrong<'a>(report: &'a Report, task: &'a TaskResult) -> impl Iterator<Item = &'a CheckResult> {
-    report.checks.iter().filter(|check| check.task == task.id && check.verdict != Verdict::Pass)
-}
+use crate::report::{Points, Verdict};
 
 /// The outcome in a word.
 pub(super) fn word(verdict: Verdict) -> &'static str {

@@ -269,6 +269,13 @@ pub enum Reason {
     Harness,
 }
 
+impl CheckResult {
+    /// True if it was run and did not pass.
+    pub fn is_lacking(&self) -> bool {
+        !matches!(self.verdict, Verdict::Pass | Verdict::LeftOut)
+    }
+}
+
 /// A check that was not run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeftOut {
@@ -342,6 +349,16 @@ impl Sandbox {
 }
 
 impl Report {
+    /// The checks that a task lacks: first what is known to be wrong, of that what no points are without, then what is
+    /// only not known to be right. Checks that were not run, since nothing depended on them any more, are not among
+    /// them.
+    pub fn lacking(&self, task: &str) -> Vec<&CheckResult> {
+        let mut lacking: Vec<&CheckResult> =
+            self.checks.iter().filter(|check| check.task == task && check.is_lacking()).collect();
+        lacking.sort_by_key(|check| (check.verdict == Verdict::Inconclusive, !check.evidence));
+        lacking
+    }
+
     /// Reads what [`Self::save`] has written.
     ///
     /// # Errors

@@ -104,7 +104,8 @@ fn table(report: &Report, width: Option<usize>) -> Table {
     let heads = ["task", "", "points", "passed", "what is missing"];
     table.set_header(heads.map(|head| Cell::new(head).add_attribute(Attribute::Bold)));
     for task in &report.tasks {
-        let checks = report.checks.iter().filter(|check| check.task == task.id);
+        let run = |check: &&CheckResult| check.task == task.id && check.verdict != Verdict::LeftOut;
+        let checks = report.checks.iter().filter(run);
         let passed = checks.clone().filter(|check| check.verdict == Verdict::Pass).count();
         let (points, passed) = match task.points {
             None => (format!("– / {}", task.max), String::new()),
@@ -129,8 +130,7 @@ fn table(report: &Report, width: Option<usize>) -> Table {
 
 /// Why points are missing, short enough for a table: what follows it names the checks.
 fn missing(task: &TaskResult, report: &Report) -> String {
-    let failed =
-        report.checks.iter().filter(|check| check.task == task.id && check.verdict != Verdict::Pass).count();
+    let failed = report.lacking(&task.id).len();
     let gated = task.points == Some(0.0) || failed == 0;
     let mut parts = Vec::new();
     if gated && !task.reason.is_empty() {
@@ -168,11 +168,7 @@ fn write_failures(
     report: &Report,
     width: Option<usize>,
 ) -> io::Result<()> {
-    let lacks = |check: &&CheckResult| !matches!(check.verdict, Verdict::Pass | Verdict::LeftOut);
-    let mut failed: Vec<&CheckResult> =
-        report.checks.iter().filter(|check| check.task == task.id).filter(lacks).collect();
-    // What is known to be wrong stands before what is only not known to be right.
-    failed.sort_by_key(|check| (check.verdict != Verdict::Fail, !check.evidence));
+    let failed = report.lacking(&task.id);
     let Some(first) = failed.first() else { return Ok(()) };
     writeln!(out, "\n{}", bold(&format!("{} {}", task.id, task.title)))?;
     for check in failed.iter().take(EXPLAINED) {

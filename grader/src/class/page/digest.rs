@@ -62,7 +62,8 @@ impl Digests {
             if let Some(record) = &record {
                 digest.seconds = Some(record.seconds);
                 digest.work = record.work;
-                for (check, verdict) in &record.checks {
+                let run = record.checks.iter().filter(|(_, verdict)| **verdict != Verdict::LeftOut);
+                for (check, verdict) in run {
                     let rate = digests.checks.entry(check.clone()).or_default();
                     rate.run += 1;
                     rate.passed += usize::from(*verdict == Verdict::Pass);
@@ -91,7 +92,8 @@ fn shared(record: &Record) -> Option<(bool, String)> {
     if let Some(reason) = record.reason.as_ref().filter(|_| record.checks.is_empty()) {
         return Some((false, reason.message.clone()));
     }
-    let failed = record.checks.iter().filter(|(_, verdict)| **verdict != Verdict::Pass);
+    let lacking = |verdict: Verdict| !matches!(verdict, Verdict::Pass | Verdict::LeftOut);
+    let failed = record.checks.iter().filter(|(_, verdict)| lacking(**verdict));
     let failed: Vec<&str> = failed.map(|(check, _)| check.as_str()).collect();
     (!failed.is_empty()).then(|| (false, failed.join(", ")))
 }

@@ -27,8 +27,7 @@ pub(super) fn tasks(report: &Report) -> Markup {
 }
 
 fn advice(task: &TaskResult, report: &Report) -> Markup {
-    let mut of_task = report.checks.iter().filter(|check| check.task == task.id);
-    let Some(wrong) = of_task.find(|check| check.verdict != Verdict::Pass) else {
+    let Some(&wrong) = report.lacking(&task.id).first() else {
         return html! { @if task.reason.is_empty() { "nothing is missing" } @else { (task.reason) } };
     };
     html! {
@@ -58,12 +57,13 @@ pub(super) fn checks(report: &Report, edition: Edition) -> Markup {
     html! {
         @if !report.checks.is_empty() { h2 { "Checks" } }
         @for task in &report.tasks {
-            @let of_task = report.checks.iter().filter(|check| check.task == task.id);
-            @let (passed, wrong): (Vec<&CheckResult>, Vec<&CheckResult>) = of_task.partition(|check| check.verdict == Verdict::Pass);
+            @let with = |verdict| report.checks.iter().filter(|check| check.task == task.id && check.verdict == verdict).collect::<Vec<_>>();
+            @let (passed, wrong, left_out) = (with(Verdict::Pass), report.lacking(&task.id), with(Verdict::LeftOut));
             @if passed.len() + wrong.len() > 0 {
                 h3 { (task.id) " " (task.title) ": " (passed.len()) " of " (passed.len() + wrong.len()) " passed" }
                 @if !wrong.is_empty() { (table(&wrong)) }
                 @if !passed.is_empty() { details { summary { "what passed" } (table(&passed)) } }
+                @if !left_out.is_empty() { details { summary { "what was not run" } (table(&left_out)) } }
             }
         }
         @if let Edition::Student { concealed, passed } = edition && concealed > 0 {
