@@ -29,7 +29,10 @@ const KEPT_BACK: [&str; 2] = ["scenes/hidden", "references/hidden"];
 const TEST_FILES: [&str; 3] = ["tests.rs", "test_scenes.rs", "sample.rs"];
 
 /// What of an assignment's folder is given; `course.yml` would name those who have longer.
-const OF_ASSIGNMENT: [&str; 5] = ["sheet.md", "rubric.yml", "figures", "causes.yml", "signatures.json"];
+const OF_ASSIGNMENT: [&str; 3] = ["sheet.md", "rubric.yml", "figures"];
+
+/// What else is given if it is there: how mistakes look, and words for them.
+const IF_THERE: [&str; 2] = ["causes.yml", "signatures.json"];
 
 /// What of an assignment's folder is given elsewhere, if it is there.
 const MOVED: [(&str, &str); 3] = [
@@ -57,6 +60,11 @@ pub(super) fn given(workspace: &Workspace, assignment: &str) -> Result<Vec<(Path
     let mut files = Vec::new();
     for name in GIVEN.into_iter().map(PathBuf::from).chain(OF_ASSIGNMENT.map(|name| own.join(name))) {
         collect(root, &name, &mut files)?;
+    }
+    for name in IF_THERE.map(|name| own.join(name)) {
+        if root.join(&name).is_file() {
+            collect(root, &name, &mut files)?;
+        }
     }
     for (from, to) in MOVED {
         let from = root.join(&own).join(from);
