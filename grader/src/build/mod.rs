@@ -3,9 +3,7 @@
 mod compile;
 mod framework;
 mod scratch;
-mod solution;
 
 pub(crate) use compile::EMPTY_HAND_IN;
 pub use compile::{BuildFailure, HandInProgram, compile};
 pub use framework::Framework;
-pub use solution::solution;

@@ -7,11 +7,12 @@ use arty::image::check_writable;
 use arty::integrator::Technique;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::build::{Framework, compile, solution};
+use crate::build::{Framework, compile};
 use crate::convergence::{
     Contestant, Options, Role, TELLING_SCENES, crops, measure, page, print_table, save_csv, save_json, svg,
 };
 use crate::error::{Error, Result};
+use crate::reference::Oracle;
 use crate::report::LeftOut;
 use crate::sandbox::Limits;
 use crate::submission::Submission;
@@ -90,7 +91,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
             Err(_) => left_out.push(left_out_everywhere(&name, "it does not compile")),
         }
     }
-    let solution = solution(&workspace, &framework)?;
+    let solution = Oracle::of(&workspace, &framework)?.map(|oracle| oracle.program()).transpose()?;
     if solution.is_none() {
         left_out.push(left_out_everywhere("the solution", "it is not in this checkout"));
     }
@@ -99,8 +100,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         .map(|(name, program)| Contestant { name: name.clone(), role: Role::Submission, program })
         .collect();
     let named = |name: &str, role, program| Contestant { name: name.to_owned(), role, program };
-    contestants.extend(solution.as_ref().map(|program| named("solution", Role::Solution, program)));
-    if let Some(program) = solution.as_ref().or(programs.first().map(|(_, program)| program)) {
+    contestants.extend(solution.as_deref().map(|program| named("solution", Role::Solution, program)));
+    if let Some(program) = solution.as_deref().or(programs.first().map(|(_, program)| program)) {
         contestants.push(named("BSDF sampling", Role::Baseline, program));
     }
 

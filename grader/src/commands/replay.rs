@@ -103,8 +103,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     } else if !workspace.solution_file().is_file() {
         (None, Some("the solution's path is left out: there is no solution/ here"))
     } else {
-        let path = follow(&solution(&workspace)?, &place)?
-            .map_err(|fault| Error::Harness(format!("the solution: {fault}")))?;
+        let solution = solution(&workspace)?;
+        let path =
+            follow(&solution, &place)?.map_err(|fault| Error::Harness(format!("the solution: {fault}")))?;
         (Some(path), None)
     };
     let weighted = own.as_ref().map(|path| vertices(path, &place));

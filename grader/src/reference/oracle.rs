@@ -7,9 +7,11 @@ use arty::integrator::Settings;
 use arty::scene::SceneDescription;
 
 use super::make::live;
-use crate::build::{Framework, HandInProgram, solution};
+use crate::build::{Framework, HandInProgram, compile};
 use crate::error::{Error, Result};
+use crate::sandbox::Limits;
 use crate::statistics::bias::Expected;
+use crate::submission::Submission;
 use crate::workspace::Workspace;
 
 /// The solution of this checkout. It is compiled only once it is needed.
@@ -17,7 +19,7 @@ use crate::workspace::Workspace;
 /// Its answers are kept beside the framework's libraries, under the hash of all that they depend on.
 #[derive(Debug)]
 pub struct Oracle {
-    workspace: Workspace,
+    submission: Submission,
     framework: Framework,
     /// Over the framework, the solution's source, and how its samples become an answer.
     hash: blake3::Hash,
@@ -38,9 +40,10 @@ impl Oracle {
         let mut hasher = blake3::Hasher::new();
         hasher.update(framework.hash()?.as_bytes());
         hasher.update(include_bytes!("make.rs"));
-        hasher.update(&std::fs::read(&path).map_err(|error| Error::file(&path, error))?);
+        let submission = Submission::read(&path)?;
+        hasher.update(submission.source.as_bytes());
         Ok(Some(Self {
-            workspace: workspace.clone(),
+            submission,
             framework: framework.clone(),
             hash: hasher.finalize(),
             folder: workspace.framework_target().join("answers"),
@@ -48,7 +51,7 @@ impl Oracle {
         }))
     }
 
-    /// The solution as a program.
+    /// The solution as a program, built like any hand-in.
     ///
     /// # Errors
     /// If it does not compile.
@@ -57,9 +60,9 @@ impl Oracle {
         if let Some(program) = &*program {
             return Ok(Arc::clone(program));
         }
-        let compiled = solution(&self.workspace, &self.framework)?.ok_or_else(|| {
-            Error::file(&self.workspace.solution_file(), "it was there a moment ago, and is gone")
-        })?;
+        let Submission { path, source } = &self.submission;
+        let compiled = compile(&self.framework, source, &Limits::default())?
+            .map_err(|failure| Error::file(path, format!("does not compile:\n{}", failure.messages)))?;
         Ok(Arc::clone(program.insert(Arc::new(compiled))))
     }
 
