@@ -71,7 +71,7 @@ fn folder_of(path: &Path) -> PathBuf {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_owned()
 }
 
-/// Grades and says what came out of it. The table is drawn again after each check: the quickest come first.
+/// Grades and says what came out of it. The table is drawn again after each check.
 fn grade_once(grader: &Grader, submission: &Submission, file: &Path) -> String {
     let mut checks: Vec<CheckResult> = Vec::new();
     show("compiling …", &submission.path);
