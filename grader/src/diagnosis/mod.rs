@@ -1,11 +1,11 @@
 //! Why is it wrong? Likely causes of what the checks of a report have found, in words for students.
 //!
-//! A report is turned into [`Vector`], what each check saw as numbers ([`observation`]). The wrong variants of the
+//! A report is turned into [`Vector`], what each check saw as numbers (`observation`). The wrong variants of the
 //! solution have been graded, and their vectors are the *signatures* of the mistakes that are known
-//! ([`signatures`], `cargo grader signatures`). The causes of a report are those whose signatures are nearest
-//! ([`distance`], [`rank`]), unless even the nearest is too far: then the cause is unknown, and the report says so. What
-//! can be seen without any comparison is told first ([`direct`]): a file that does not compile or panics, tasks that nobody
-//! has begun. The words stand in the assignment's `causes.yml`, and [`evidence`] adds what was observed.
+//! (`signatures`, `cargo grader signatures`). The causes of a report are those whose signatures are nearest
+//! (`distance`, `rank`), unless even the nearest is too far: then the cause is unknown, and the report says so. What
+//! can be seen without any comparison is told first (`direct`): a file that does not compile or panics, tasks that nobody
+//! has begun. The words stand in the assignment's `causes.yml`, and `evidence` adds what was observed.
 //!
 //! Whatever is compared, only checks count that both sides have: a grade may leave checks out, or stop early.
 

@@ -58,7 +58,7 @@ pub struct Seen {
     /// How it ended.
     pub state: State,
     /// Numbers by name; none where it passed. What they mean, and how exact they can be, is up to
-    /// [`scale`](super::distance::scale).
+    /// `scale` of the module `distance`.
     pub numbers: BTreeMap<String, Number>,
 }
 

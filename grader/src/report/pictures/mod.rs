@@ -1,7 +1,7 @@
 //! Pictures for the report page: what the hand-in renders with each technique, beside what the scene looks like.
 //!
-//! They are kept as the page shows them: radiance in half floats, all else in bytes. [`render`] makes them, [`store`]
-//! keeps them beside a class's reports, [`thumbnail`] makes a small one for the class's page.
+//! They are kept as the page shows them: radiance in half floats, all else in bytes. `render` makes them, `store`
+//! keeps them beside a class's reports, `thumbnail` makes a small one for the class's page.
 
 mod render;
 mod store;
