@@ -1,12 +1,14 @@
-//! The pages of one hand-in of a class: pictures are rendered once, pages made again when a mark has changed.
+//! The pages of one hand-in of a class: all that takes time is done once, pages are made again when a mark has changed.
 
 use std::path::Path;
 
 use super::record::{Record, Shelf};
 use crate::build::compile;
+use crate::convergence::brief;
 use crate::error::{Error, Result};
-use crate::grade::Grader;
+use crate::grade::{Grader, Options};
 use crate::marks::Marks;
+use crate::reference::Oracle;
 use crate::report::pictures::{load, pictures, save, thumbnail};
 use crate::report::{Readers, Report, remove_pages, write_pages};
 use crate::submission::Submission;
@@ -15,19 +17,24 @@ use crate::workspace::Workspace;
 /// Scenes of which pages have pictures: fewer than when one hand-in is graded, since those of a class take megabytes each.
 const SCENES: usize = 2;
 
-/// Renders pictures of a hand-in that has just been graded, and keeps them and a small one.
-pub(super) fn render(
+/// Measures error against run time of a hand-in that has just been graded, renders pictures, and keeps these and a small
+/// one.
+pub(super) fn complete(
     workspace: &Workspace,
     grader: &Grader,
     submission: &Submission,
-    report: &Report,
+    report: &mut Report,
     shelf: &Shelf,
 ) -> Result<()> {
-    let options = grader.options();
-    let shown = match compile(grader.framework(), &submission.source, &options.limits)? {
-        Ok(hand_in) => pictures(workspace, &hand_in, report, options.threads, options.seed, SCENES)?,
-        Err(_) => Vec::new(),
-    };
+    let Options { seed, threads, limits, .. } = grader.options();
+    let mut shown = Vec::new();
+    if report.submission.build_failure.is_none()
+        && let Ok(hand_in) = compile(grader.framework(), &submission.source, limits)?
+    {
+        let solution = grader.oracle().map(Oracle::program).transpose()?;
+        report.convergence = Some(brief(workspace, &hand_in, solution.as_deref(), *seed)?);
+        shown = pictures(workspace, &hand_in, report, *threads, *seed, SCENES)?;
+    }
     save(&shown, &shelf.pictures())?;
     match thumbnail(&shown) {
         Some(png) => {

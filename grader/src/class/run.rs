@@ -245,7 +245,7 @@ impl Shared<'_> {
         let key = self.key(source);
         let fingerprint = hand_in.outcome.is_ok().then(|| self.starter.fingerprint(source));
         let mut record = Record::new(key, &hand_in, &self.tasks, None);
-        let report = match &hand_in.outcome {
+        let mut report = match &hand_in.outcome {
             Err(_) => None,
             Ok(_) if !self.options.regrade && before.is_some_and(|before| before.key == record.key) => {
                 // What came with the source may have changed, though the verdicts have not.
@@ -262,10 +262,14 @@ impl Shared<'_> {
         }
         pages::clear(shelf)?;
         shelf.save(&mut record, report.as_ref())?;
-        if let (Some(report), Ok(submission), true) = (&report, &hand_in.outcome, self.options.pages)
-            && let Err(error) = pages::render(self.workspace, &self.grader, submission, report, shelf)
-        {
-            eprintln!("warning: no pictures of {}: {error}", intake::harmless(&member.key));
+        if let (Some(report), Ok(submission), true) = (&mut report, &hand_in.outcome, self.options.pages) {
+            match pages::complete(self.workspace, &self.grader, submission, report, shelf) {
+                Ok(()) => shelf.save(&mut record, Some(report))?,
+                Err(error) => {
+                    let whose = intake::harmless(&member.key);
+                    eprintln!("warning: the report of {whose} is not complete: {error}");
+                }
+            }
         }
         Ok(Some(Settled { record, fingerprint, lateness, receipt, graded: report.is_some() }))
     }
