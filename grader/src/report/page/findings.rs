@@ -52,7 +52,7 @@ pub(super) fn explanations(report: &Report) -> Markup {
     }
 }
 
-/// All checks of each task. Those that did not pass are unfolded.
+/// All checks of each task. Those that failed are unfolded.
 pub(super) fn checks(report: &Report, edition: Edition) -> Markup {
     html! {
         @if !report.checks.is_empty() { h2 { "Checks" } }
@@ -61,7 +61,14 @@ pub(super) fn checks(report: &Report, edition: Edition) -> Markup {
             @let (passed, wrong, left_out) = (with(Verdict::Pass), report.lacking(&task.id), with(Verdict::LeftOut));
             @if passed.len() + wrong.len() > 0 {
                 h3 { (task.id) " " (task.title) ": " (passed.len()) " of " (passed.len() + wrong.len()) " passed" }
-                @if !wrong.is_empty() { (table(&wrong)) }
+                // Beside what is known to be wrong, what nobody can tell helps little.
+                @let (open, failed): (Vec<&CheckResult>, Vec<&CheckResult>) =
+                    wrong.iter().partition(|check| check.verdict == Verdict::Inconclusive);
+                @if !failed.is_empty() { (table(&failed)) }
+                @if failed.is_empty() && !open.is_empty() { (table(&open)) }
+                @if !failed.is_empty() && !open.is_empty() {
+                    details { summary { "what could not be told" } (table(&open)) }
+                }
                 @if !passed.is_empty() { details { summary { "what passed" } (table(&passed)) } }
                 @if !left_out.is_empty() { details { summary { "what was not run" } (table(&left_out)) } }
             }
