@@ -18,6 +18,7 @@ mod white_furnace;
 pub use closed_form::why_no_closed_form;
 pub use efficiency::{rivals, why_it_does_not_tell};
 pub use mean_bias::expected as expected_by_reference;
+pub(crate) use mis_weights::CONSTANT_WEIGHTS;
 pub use mis_weights::Weights;
 pub use white_furnace::why_no_furnace;
 

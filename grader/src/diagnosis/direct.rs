@@ -3,6 +3,7 @@
 use arty::integrator::Technique;
 
 use super::Found;
+use crate::checks::CONSTANT_WEIGHTS;
 use crate::report::{CheckResult, Diagnosis, Reason, Report};
 use crate::rubric::CheckKind;
 
@@ -73,7 +74,7 @@ fn first_line(text: &str) -> &str {
 fn panic(check: &CheckResult) -> Found {
     let words = check.explanation.as_str();
     let evidence = format!("in {}, {words}", check.id);
-    // The words of `todo!()` and of `unimplemented!()`.
+    // What the standard library says where a hand-in comes to a macro for code that is still to be written.
     if words.contains("not yet implemented") || words.contains("not implemented") {
         return cause(
             "todo-left",
@@ -143,13 +144,10 @@ const ALIKE: f64 = 0.04;
 /// Scenes that have to agree.
 const ENOUGH: usize = 4;
 
-/// What the check of weights calls those that are constant, among a result's details.
-const CONSTANT: [&str; 2] = ["constant of light samples", "constant against BSDF samples"];
-
 /// True if the weights of `mis` were looked at, and are the same whatever the densities.
 fn weighs_nothing(report: &Report) -> bool {
     let mut weights = report.checks.iter().filter(|check| check.check == CheckKind::MisWeights);
-    weights.any(|check| CONSTANT.iter().all(|name| check.details.contains_key(*name)))
+    weights.any(|check| CONSTANT_WEIGHTS.iter().all(|name| check.details.contains_key(*name)))
 }
 
 /// Which parts nobody has begun, by the marks of the starting file; nothing where there are no such marks.

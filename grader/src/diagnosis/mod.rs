@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use crate::error::{Error, Result};
-use crate::report::{Diagnosis, Report, Verdict};
+use crate::report::{CheckResult, Diagnosis, Report};
 
 /// How many causes are named at most.
 pub const MOST: usize = 3;
@@ -114,7 +114,7 @@ impl Catalogue {
 
     /// At most [`MOST`] likely causes, the likeliest first. None for a hand-in whose checks all pass.
     pub fn diagnose(&self, report: &Report, source: &str) -> Vec<Diagnosis> {
-        let wrong = report.checks.iter().any(|check| check.verdict != Verdict::Pass);
+        let wrong = report.checks.iter().any(CheckResult::is_lacking);
         if !wrong && report.submission.build_failure.is_none() {
             return Vec::new();
         }

@@ -43,6 +43,9 @@ pub struct Weights {
     pub measured: Vec<[f32; 3]>,
 }
 
+/// What the weights of light samples, and those of BSDF samples, are called among a result's details if they are constant.
+pub(crate) const CONSTANT_WEIGHTS: [&str; 2] = ["constant of light samples", "constant against BSDF samples"];
+
 /// How far the sum of two weights may be from one.
 const TOLERATED: f64 = 1e-4;
 
@@ -211,7 +214,7 @@ fn judge(
     let mut details = special.weights.clone();
     details.insert("deviation at the first vertex".to_owned(), worst(&observations[..single]));
     details.insert("deviation at later vertices".to_owned(), worst(&observations[single..]));
-    for (name, side) in [("constant of light samples", &light), ("constant against BSDF samples", &bsdf)] {
+    for (name, side) in CONSTANT_WEIGHTS.into_iter().zip([&light, &bsdf]) {
         if let Side::Constant(value) = side {
             details.insert(name.to_owned(), *value);
         }

@@ -27,11 +27,7 @@ pub(crate) fn bars(histogram: &Bars<'_>) -> Option<String> {
 fn draw<'a>(histogram: &Bars<'_>, most: f64, area: &super::Area<'a>) -> Result<(), Failure<'a>> {
     let &Bars { axis, range, counts, expected, .. } = histogram;
     let top = 1.1 * expected.map_or(most, |(_, [_, high])| most.max(high));
-    let mut chart = ChartBuilder::on(area)
-        .margin(10)
-        .x_label_area_size(38)
-        .y_label_area_size(44)
-        .build_cartesian_2d(range.0..range.1, 0.0..top)?;
+    let mut chart = super::chart(area, 44, range.0..range.1, 0.0..top)?;
     chart
         .configure_mesh()
         .disable_x_mesh()

@@ -22,11 +22,7 @@ fn draw<'a>(check: &CheckResult, area: &super::Area<'a>) -> Result<(), Failure<'
     let most = seen.iter().map(|(_, c, margin)| c + margin).fold(1.1, f64::max);
     let room = 0.08 * (most - least);
     let last = (seen.len() - 1) as f64;
-    let mut chart = ChartBuilder::on(area)
-        .margin(10)
-        .x_label_area_size(38)
-        .y_label_area_size(52)
-        .build_cartesian_2d(-0.4..last + 0.4, least - room..most + room)?;
+    let mut chart = super::chart(area, 52, -0.4..last + 0.4, least - room..most + room)?;
     let whole = |k: &f64| if (k - k.round()).abs() < 1e-6 { format!("{k:.0}") } else { String::new() };
     chart
         .configure_mesh()

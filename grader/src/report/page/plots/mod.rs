@@ -5,7 +5,10 @@ mod furnace;
 mod p_values;
 mod weights;
 
+use std::ops::Range;
+
 use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
 use crate::convergence::{GRID, INK, PAPER, SUBMISSION};
@@ -32,6 +35,18 @@ fn svg(label: &str, draw: impl FnOnce(&Area<'_>) -> Option<()>) -> Option<String
     }
     let begin = format!("<svg class=\"plot\" role=\"img\" aria-label=\"{label}\" ");
     Some(text.replacen("<svg ", &begin, 1))
+}
+
+type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// Empty axes; `labels` is the room for those of the upright one, in pixels.
+fn chart<'a, 'b>(
+    area: &'a Area<'b>,
+    labels: u32,
+    x: Range<f64>,
+    y: Range<f64>,
+) -> Result<Chart<'a, 'b>, Failure<'b>> {
+    ChartBuilder::on(area).margin(10).x_label_area_size(38).y_label_area_size(labels).build_cartesian_2d(x, y)
 }
 
 /// The font of labels, in the colour of text.

@@ -24,11 +24,7 @@ fn draw<'a>(weights: &Weights, area: &super::Area<'a>) -> Result<(), Failure<'a>
         (low, high) = (low.min(light.min(*bsdf)).max(-1.0), high.max(light.max(*bsdf)).min(3.0));
     }
     let room = 0.06 * (high - low);
-    let mut chart = ChartBuilder::on(area)
-        .margin(10)
-        .x_label_area_size(38)
-        .y_label_area_size(48)
-        .build_cartesian_2d(least - 0.1..most + 0.1, low - room..high + room)?;
+    let mut chart = super::chart(area, 48, least - 0.1..most + 0.1, low - room..high + room)?;
     chart
         .configure_mesh()
         .disable_x_mesh()
