@@ -45,7 +45,8 @@ pub(super) struct Arguments {
     minutes: Option<f64>,
     #[command(flatten)]
     assignment: Assignment,
-    /// Folder of the results; those that are there already are used [default: target/calibration]
+    /// Folder of the results; those that are there already are used [default: target/calibration, and whole grades
+    /// with those of `mutants` in target/mutants]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Threads [default: one for each core]
@@ -67,13 +68,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let rubric = arguments.assignment.rubric(&workspace)?;
     let (right, wrong): (Vec<Variant>, Vec<Variant>) =
         variants(&workspace, &rubric)?.list.into_iter().partition(|variant| variant.kind == Kind::Right);
-    let folder = arguments.out.clone().unwrap_or_else(|| workspace.root().join("target/calibration"));
+    let folder =
+        |name: &str| arguments.out.clone().unwrap_or_else(|| workspace.root().join("target").join(name));
     let mut calibration = Calibration {
         arguments,
         key: hash_of_inputs(&workspace, &arguments.assignment.name)?.to_hex()[..32].to_owned(),
         threads: arguments.jobs.unwrap_or_else(rayon::current_num_threads).max(1),
-        results: Results::open(&folder)?,
-        ledger: Ledger::open(&folder, &workspace, &arguments.assignment.name)?,
+        results: Results::open(&folder("calibration"))?,
+        ledger: Ledger::open(&folder("mutants"), &workspace, &arguments.assignment.name)?,
         deadline: arguments.minutes.map(|minutes| {
             std::time::Instant::now() + std::time::Duration::from_secs_f64(60.0 * minutes.max(0.0))
         }),

@@ -23,9 +23,10 @@ const BATCHES: u64 = 32;
 
 /// Samples of each pixel and batch that have been taken by each look.
 ///
-/// With four times as many samples, the confirmation of the last one takes 8,192 of each pixel: a sixteenth of what a
-/// reference has, so that the reference's own error does not matter.
-pub const LOOKS: [u64; 4] = [1, 4, 16, 64];
+/// With four times as many samples, the confirmation of the last one takes 32,768 of each pixel. A reference has four
+/// times as many, and its own error is part of every comparison. The last look costs three times as much as all before
+/// it together, so it is taken only where a pass is [in sight](within_reach).
+pub const LOOKS: [u64; 5] = [1, 4, 16, 64, 256];
 
 /// Looks before this one (counted from 0) are too early for a pass: small tiles see too little.
 const FIRST_PASS: usize = 1;
@@ -102,7 +103,7 @@ impl Question<'_> {
     }
 }
 
-/// Asks for samples until the question is decided or the last look is done.
+/// Asks for samples until the question is decided, or no look is left that could decide it.
 ///
 /// # Errors
 /// What `render` fails with.
@@ -152,11 +153,19 @@ pub fn judge<E>(
         if clear {
             return Ok(judgement(Decision::Unbiased, whole, screening.whole, confirmation_samples));
         }
-        if look + 1 == question.looks.min(LOOKS.len()) {
+        let next = look + 1;
+        let is_last = next == question.looks.min(LOOKS.len());
+        if is_last || (next + 1 == LOOKS.len() && !within_reach(worst, question.tolerance)) {
             return Ok(judgement(Decision::Unclear, whole, screening.whole, confirmation_samples));
         }
     }
     unreachable!("the last look decides");
+}
+
+/// Whether a look with four times as many samples is likely to bring the worst that the error may be below the
+/// tolerance: it will be about half as large, if the mean is right.
+fn within_reach(worst: f64, tolerance: f64) -> bool {
+    worst < 2.0 * tolerance
 }
 
 fn seeds(seed: u64) -> Vec<u64> {
@@ -270,6 +279,31 @@ mod tests {
         }
     }
 
+    /// Samples with a mean of 1, most of them black: each is 0, or once in `scarcity` times as bright as that.
+    fn judge_sparse(scarcity: f64, tolerance: f64, seed: u64) -> Judgement {
+        let expected = Expected {
+            mean: vec![[1.0; 3]; 256],
+            error: vec![[0.0; 3]; 256],
+            deviation: vec![[(scarcity - 1.0).sqrt(); 3]; 256],
+            asymmetry: vec![[scarcity.powf(2.0 / 3.0); 3]; 256],
+        };
+        let render = |demand: &Demand| {
+            let batch = |&seed: &u64| {
+                let pixel = |i: u32| {
+                    let samples = demand.first_sample..demand.first_sample + demand.samples;
+                    let is_bright = |&sample: &u64| {
+                        f64::from(Sampler::new(seed, (i, 0), sample).next_1d()) < 1.0 / scarcity
+                    };
+                    let bright = samples.filter(is_bright).count() as f64;
+                    [(bright * scarcity / demand.samples as f64) as f32; 3]
+                };
+                (0..256).map(pixel).collect()
+            };
+            Ok::<_, ()>(demand.seeds.iter().map(batch).collect())
+        };
+        ask(&expected, tolerance, seed, render)
+    }
+
     fn judge_exponential(factor: f64, corner_factor: f64, seed: u64) -> Judgement {
         let expected = Expected {
             mean: vec![[1.0; 3]; 256],
@@ -277,17 +311,26 @@ mod tests {
             deviation: vec![[1.0; 3]; 256],
             asymmetry: vec![[2.0f64.cbrt(); 3]; 256],
         };
+        ask(&expected, 0.02, seed, exponential(factor, corner_factor))
+    }
+
+    fn ask(
+        expected: &Expected,
+        tolerance: f64,
+        seed: u64,
+        render: impl FnMut(&Demand) -> Result<Vec<Vec<[f32; 3]>>, ()>,
+    ) -> Judgement {
         let regions = pyramid(16, 16);
         let question = Question {
-            expected: &expected,
+            expected,
             regions: &regions,
             decisive: 3,
-            tolerance: 0.02,
+            tolerance,
             screening_level: 0.01,
             seed,
             looks: LOOKS.len(),
         };
-        judge(&question, exponential(factor, corner_factor)).expect("it cannot fail")
+        judge(&question, render).expect("it cannot fail")
     }
 
     #[test]
@@ -307,6 +350,23 @@ mod tests {
                 assert_eq!(judgement.decision, Decision::Biased, "× {factor}, seed {seed}: {judgement:?}");
                 assert!(judgement.samples <= most, "× {factor}: {}", judgement.samples);
             }
+        }
+    }
+
+    #[test]
+    fn the_last_look_is_taken_where_it_decides_and_nowhere_else() {
+        // Of 256 pixels with samples of deviation 14, 3.6 × 14 / √(256 · 32 · 64) = 7 % can hide before the last look
+        // and half as much after it; with a deviation of 100, 50 % and 25 %. The means are within 3 σ, 6 % and 3 %,
+        // but once in 400.
+        let pixels = 256;
+        let samples = |judgement: &Judgement| judgement.samples / pixels / BATCHES;
+        for seed in 0..5 {
+            let near = judge_sparse(200.0, 0.065, seed);
+            assert_eq!(near.decision, Decision::Unbiased, "seed {seed}: {near:?}");
+            assert!(samples(&near) >= LOOKS[4], "seed {seed}");
+            let far = judge_sparse(10_000.0, 0.065, seed);
+            assert_eq!(far.decision, Decision::Unclear, "seed {seed}: {far:?}");
+            assert_eq!(samples(&far), LOOKS[3], "seed {seed}");
         }
     }
 
