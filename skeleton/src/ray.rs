@@ -9,6 +9,8 @@ pub struct Ray {
     pub origin: Vec3,
     /// Where it goes; a unit vector, so that t is a distance in scene units.
     pub direction: Vec3,
+    /// The triangle that it leaves and does not hit, if it was spawned.
+    pub(crate) leaves: Option<u32>,
 }
 
 impl Ray {
@@ -18,6 +20,6 @@ impl Ray {
     /// that surface again.
     #[inline]
     pub fn new(origin: Vec3, direction: Vec3) -> Self {
-        Self { origin, direction }
+        Self { origin, direction, leaves: None }
     }
 }

@@ -26,7 +26,14 @@ pub(super) trait Lanes: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Out
     fn le(self, other: Self) -> u32;
     /// A bit for each lane in which `self < other`, that of lane 0 the lowest; 0 where one is not a number.
     fn lt(self, other: Self) -> u32;
+    /// A bit for each index that is the given one, that of the first the lowest.
+    fn equal(indices: &Indices, index: u32) -> u32;
 }
+
+/// Eight indices in memory.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub(super) struct Indices(pub(super) [u32; 8]);
 
 /// Eight numbers in memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,6 +125,10 @@ impl Lanes for Portable {
     fn lt(self, other: Self) -> u32 {
         self.compare(other, |a, b| a < b)
     }
+    #[inline(always)]
+    fn equal(indices: &Indices, index: u32) -> u32 {
+        (0..8).fold(0, |bits, lane| bits | u32::from(indices.0[lane] == index) << lane)
+    }
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -128,7 +139,7 @@ mod avx {
     use std::arch::x86_64::*;
     use std::ops::{Add, Mul, Sub};
 
-    use super::{Lanes, Row};
+    use super::{Indices, Lanes, Row};
 
     /// For machines with AVX2: one register.
     ///
@@ -200,6 +211,15 @@ mod avx {
         fn lt(self, other: Self) -> u32 {
             // SAFETY: as above.
             (unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0)) }) as u32
+        }
+        #[inline(always)]
+        fn equal(indices: &Indices, index: u32) -> u32 {
+            // SAFETY: only called on machines with AVX2, see `Avx`; `Indices` are 32 readable bytes, aligned to 32.
+            unsafe {
+                let indices = _mm256_load_si256((&raw const indices.0).cast());
+                let equal = _mm256_cmpeq_epi32(indices, _mm256_set1_epi32(index.cast_signed()));
+                _mm256_movemask_ps(_mm256_castsi256_ps(equal)) as u32
+            }
         }
     }
 }

@@ -22,7 +22,7 @@ pub use offset::{offset_origin, point_on};
 
 use binary::BinaryTree;
 use lanes::{Lanes, Portable};
-use packet::Nearest;
+use packet::{NO_PRIMITIVE, Nearest};
 use ray::PreparedRay;
 use tree::Tree;
 
@@ -118,15 +118,23 @@ impl Accel {
     /// The nearest hit between 0 and `t_max`, both excluded; distances are in lengths of `direction`.
     ///
     /// `direction` may have any length that is far from the ends of what f32 can represent. A ray that is not
-    /// finite or has no direction hits nothing.
+    /// finite or has no direction hits nothing. Neither does a ray hit the triangle `leaves`, the one that it starts
+    /// from: its origin has been moved off that, so this saves the time to find out.
     #[inline]
-    pub fn intersect(&self, origin: Vec3, direction: Vec3, t_max: f32) -> Option<TriangleHit> {
+    pub fn intersect(
+        &self,
+        origin: Vec3,
+        direction: Vec3,
+        t_max: f32,
+        leaves: Option<u32>,
+    ) -> Option<TriangleHit> {
+        let (ray, leaves) = (Pairs::of(origin, direction), leaves.unwrap_or(NO_PRIMITIVE));
         #[cfg(target_arch = "x86_64")]
         if self.avx2 {
             // SAFETY: `build` has checked that the machine has AVX2.
-            return unsafe { self.intersect_avx2(origin, direction, t_max) };
+            return unsafe { self.intersect_avx2(ray.x, ray.y, ray.z, t_max, leaves) };
         }
-        self.intersect_portable(origin, direction, t_max)
+        self.intersect_portable(ray.x, ray.y, ray.z, t_max, leaves)
     }
 
     /// True if anything lies strictly between `origin` and `target`.
@@ -134,42 +142,44 @@ impl Accel {
     /// A triangle is between them if they are strictly on opposite sides of its plane and the line from one to
     /// the other passes through it. `target` may be rounded: a triangle that it lies on but for the rounding of
     /// coordinates to f32, such as that of a light, is not between. For `origin` there is no such allowance; a
-    /// point on a surface must be moved off it first ([`offset_origin`]).
+    /// point on a surface must be moved off it first ([`offset_origin`]). The triangle `leaves` counts as not between.
     #[inline]
-    pub fn occluded(&self, origin: Vec3, target: Vec3) -> bool {
+    pub fn occluded(&self, origin: Vec3, target: Vec3, leaves: Option<u32>) -> bool {
+        let (ends, leaves) = (Pairs::of(origin, target), leaves.unwrap_or(NO_PRIMITIVE));
         #[cfg(target_arch = "x86_64")]
         if self.avx2 {
             // SAFETY: `build` has checked that the machine has AVX2.
-            return unsafe { self.occluded_avx2(origin, target) };
+            return unsafe { self.occluded_avx2(ends.x, ends.y, ends.z, leaves) };
         }
-        self.occluded_portable(origin, target)
+        self.occluded_portable(ends.x, ends.y, ends.z, leaves)
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
-    fn intersect_avx2(&self, origin: Vec3, direction: Vec3, t_max: f32) -> Option<TriangleHit> {
-        self.intersect_with::<lanes::Avx>(origin, direction, t_max)
+    fn intersect_avx2(&self, x: Pair, y: Pair, z: Pair, t_max: f32, leaves: u32) -> Option<TriangleHit> {
+        self.intersect_with::<lanes::Avx>(Pairs { x, y, z }, t_max, leaves)
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
-    fn occluded_avx2(&self, origin: Vec3, target: Vec3) -> bool {
-        self.occluded_with::<lanes::Avx>(origin, target)
+    fn occluded_avx2(&self, x: Pair, y: Pair, z: Pair, leaves: u32) -> bool {
+        self.occluded_with::<lanes::Avx>(Pairs { x, y, z }, leaves)
     }
 
     #[inline(never)]
-    fn intersect_portable(&self, origin: Vec3, direction: Vec3, t_max: f32) -> Option<TriangleHit> {
-        self.intersect_with::<Portable>(origin, direction, t_max)
+    fn intersect_portable(&self, x: Pair, y: Pair, z: Pair, t_max: f32, leaves: u32) -> Option<TriangleHit> {
+        self.intersect_with::<Portable>(Pairs { x, y, z }, t_max, leaves)
     }
 
     #[inline(never)]
-    fn occluded_portable(&self, origin: Vec3, target: Vec3) -> bool {
-        self.occluded_with::<Portable>(origin, target)
+    fn occluded_portable(&self, x: Pair, y: Pair, z: Pair, leaves: u32) -> bool {
+        self.occluded_with::<Portable>(Pairs { x, y, z }, leaves)
     }
 
     #[inline(always)]
-    fn intersect_with<V: Lanes>(&self, origin: Vec3, direction: Vec3, t_max: f32) -> Option<TriangleHit> {
-        let ray = PreparedRay::new(origin * self.scale, direction * self.scale)?;
+    fn intersect_with<V: Lanes>(&self, ray: Pairs, t_max: f32, leaves: u32) -> Option<TriangleHit> {
+        let [origin, direction] = ray.vectors();
+        let ray = PreparedRay::new(origin * self.scale, direction * self.scale, leaves)?;
         let mut nearest = Nearest { t: t_max, primitive: 0, weights: [0.0; 2], weight_sum: 0.0 };
         self.tree.intersect::<V>(&ray, &mut nearest);
         let Nearest { t, primitive, weights, weight_sum } = nearest;
@@ -182,12 +192,39 @@ impl Accel {
     }
 
     #[inline(always)]
-    fn occluded_with<V: Lanes>(&self, origin: Vec3, target: Vec3) -> bool {
+    fn occluded_with<V: Lanes>(&self, ends: Pairs, leaves: u32) -> bool {
+        let [origin, target] = ends.vectors();
         let (origin, target) = (origin * self.scale, target * self.scale);
         // One rounding: f64 would give the same.
-        let Some(ray) = PreparedRay::new(origin, target - origin) else { return false };
+        let Some(ray) = PreparedRay::new(origin, target - origin, leaves) else { return false };
         let reach = origin.abs().max_element() + target.abs().max_element();
         self.tree.occluded::<V>(&ray, target, reach)
+    }
+}
+
+/// Coordinates of two vectors along one axis.
+type Pair = (f32, f32);
+
+/// Two vectors, by axis.
+///
+/// A function takes a pair in two registers, but a vector in memory. There the caller has just written it coordinate by
+/// coordinate; whoever then reads several at once has to wait until all are written.
+#[derive(Clone, Copy)]
+struct Pairs {
+    x: Pair,
+    y: Pair,
+    z: Pair,
+}
+
+impl Pairs {
+    #[inline(always)]
+    fn of(first: Vec3, second: Vec3) -> Self {
+        Self { x: (first.x, second.x), y: (first.y, second.y), z: (first.z, second.z) }
+    }
+
+    #[inline(always)]
+    fn vectors(self) -> [Vec3; 2] {
+        [Vec3::new(self.x.0, self.y.0, self.z.0), Vec3::new(self.x.1, self.y.1, self.z.1)]
     }
 }
 

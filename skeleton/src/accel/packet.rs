@@ -12,7 +12,7 @@
 use glam::Vec3;
 
 use super::exact::{self, Plane};
-use super::lanes::{Lanes, Row};
+use super::lanes::{Indices, Lanes, Row};
 use super::ray::PreparedRay;
 
 /// Up to eight triangles, as a structure of arrays. Unused lanes are not numbers and so never hit.
@@ -22,10 +22,13 @@ pub(super) struct Packet {
     /// Coordinates by corner and axis.
     pub(super) corners: [[Row; 3]; 3],
     /// The triangles' indices in the list that the structure was built from.
-    pub(super) primitives: [u32; 8],
+    pub(super) primitives: Indices,
     /// Their planes, for close calls.
     planes: [Plane; 8],
 }
+
+/// The index of no triangle.
+pub(super) const NO_PRIMITIVE: u32 = u32::MAX;
 
 /// The nearest hit so far.
 #[derive(Clone, Copy)]
@@ -42,7 +45,7 @@ pub(super) struct Nearest {
 
 /// Where a ray passes eight triangles' planes.
 struct Crossing<V> {
-    /// Lanes in which it passes through the triangle, before its origin or behind.
+    /// Lanes in which it passes through the triangle, before its origin or behind; not that which it leaves.
     inside: u32,
     /// Unnormalised barycentric weights of corners 1 and 2.
     weights: [V; 2],
@@ -58,8 +61,11 @@ struct Crossing<V> {
 
 impl Packet {
     /// A packet without triangles.
-    pub(super) const EMPTY: Self =
-        Self { corners: [[Row([f32::NAN; 8]); 3]; 3], primitives: [u32::MAX; 8], planes: [Plane::NONE; 8] };
+    pub(super) const EMPTY: Self = Self {
+        corners: [[Row([f32::NAN; 8]); 3]; 3],
+        primitives: Indices([NO_PRIMITIVE; 8]),
+        planes: [Plane::NONE; 8],
+    };
 
     /// Puts a triangle into a lane.
     pub(super) fn set(&mut self, lane: usize, triangle: &[Vec3; 3], primitive: u32) {
@@ -68,7 +74,7 @@ impl Packet {
                 row.0[lane] = coordinate;
             }
         }
-        self.primitives[lane] = primitive;
+        self.primitives.0[lane] = primitive;
         self.planes[lane] = Plane::new(triangle);
     }
 
@@ -120,7 +126,7 @@ impl Packet {
             if t < nearest.t {
                 *nearest = Nearest {
                     t,
-                    primitive: self.primitives[lane],
+                    primitive: self.primitives.0[lane],
                     weights: [first.0[lane], second.0[lane]],
                     weight_sum: sum.0[lane],
                 };
@@ -166,7 +172,9 @@ impl Packet {
         let w = b[0] * a[1] - b[1] * a[0];
         let zero = V::splat(0.0);
         let weight_sum = u + v + w;
-        let inside = (zero.le(u.min(v).min(w)) | u.max(v).max(w).le(zero)) & zero.lt(weight_sum.abs());
+        let inside = (zero.le(u.min(v).min(w)) | u.max(v).max(w).le(zero))
+            & zero.lt(weight_sum.abs())
+            & !V::equal(&self.primitives, ray.leaves);
         if inside == 0 {
             return None;
         }

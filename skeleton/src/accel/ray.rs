@@ -16,12 +16,14 @@ pub(super) struct PreparedRay {
     pub(super) axes: [usize; 3],
     /// How much x and y change with z along the ray.
     pub(super) shear: [f32; 2],
+    /// The triangle that it does not hit.
+    pub(super) leaves: u32,
 }
 
 impl PreparedRay {
     /// Makes a ray ready, or gives `None` if it has no direction or is not finite.
     #[inline(always)]
-    pub(super) fn new(origin: Vec3, direction: Vec3) -> Option<Self> {
+    pub(super) fn new(origin: Vec3, direction: Vec3, leaves: u32) -> Option<Self> {
         let length = direction.abs().max_element();
         if length == 0.0 || !direction.is_finite() || !origin.is_finite() {
             return None;
@@ -36,7 +38,7 @@ impl PreparedRay {
         let axes = [(z + 1) % 3, (z + 2) % 3, z];
         let direction = direction.to_array();
         let shear = [direction[axes[0]] / direction[z], direction[axes[1]] / direction[z]];
-        Some(Self { origin: origin.to_array(), direction, axes, shear })
+        Some(Self { origin: origin.to_array(), direction, axes, shear, leaves })
     }
 }
 

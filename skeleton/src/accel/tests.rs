@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 use super::binary::BinaryTree;
 use super::lanes::Portable;
 use super::tree::Tree;
-use super::{Accel, TriangleHit, clean, offset_origin, point_on};
+use super::{Accel, NO_PRIMITIVE, Pairs, TriangleHit, clean, offset_origin, point_on};
 
 type Triangle = [Vec3; 3];
 
@@ -151,7 +151,7 @@ fn hits_are_those_of_brute_force() {
                 .enumerate()
                 .filter(|(_, (t, weight))| *t > 0.0 && *weight > 0.0)
                 .min_by(|a, b| a.1.0.total_cmp(&b.1.0));
-            let found = accel.intersect(origin, direction, f32::INFINITY);
+            let found = accel.intersect(origin, direction, f32::INFINITY, None);
             assert_eq!(found.is_some(), nearest.is_some());
             let (Some(found), Some((_, (t, _)))) = (found, nearest) else { continue };
             hits += 1;
@@ -159,9 +159,9 @@ fn hits_are_those_of_brute_force() {
             assert!((f64::from(found.t) - t).abs() < 1e-4 * t + 1e-6, "{} instead of {t}", found.t);
             let on_triangle = point_on(&triangles[found.primitive as usize], found.barycentrics);
             assert!(on_triangle.distance(origin + found.t * direction) < 1e-4);
-            assert!(accel.intersect(origin, direction, found.t * 0.999).is_none());
-            assert!(accel.occluded(origin, origin + direction * (found.t * 1.01)));
-            assert!(!accel.occluded(origin, origin + direction * (found.t * 0.99)));
+            assert!(accel.intersect(origin, direction, found.t * 0.999, None).is_none());
+            assert!(accel.occluded(origin, origin + direction * (found.t * 1.01), None));
+            assert!(!accel.occluded(origin, origin + direction * (found.t * 0.99), None));
         }
     }
     assert!(hits > 3000, "only {hits} hits");
@@ -183,7 +183,7 @@ fn rays_at_vertices_and_edges_of_a_closed_mesh_do_not_escape() {
             let origin = place(0.5 * random.next() * random.direction());
             let blend = if random.next() < 0.3 { 0.0 } else { random.next() };
             let target = triangle[0].lerp(triangle[1], blend);
-            let hit = accel.intersect(origin, target - origin, f32::INFINITY);
+            let hit = accel.intersect(origin, target - origin, f32::INFINITY, None);
             escaped += usize::from(hit.is_none_or(|hit| hit.primitive as usize >= count));
         }
         assert_eq!(escaped, 0, "scale and offset {at:?}");
@@ -201,7 +201,7 @@ fn rays_along_the_axes_do_not_slip_through_flat_boxes() {
         let mut direction = Vec3::new(0.0, -0.0, 0.0);
         direction[axis] = if random.next() < 0.5 { -1.0 } else { 1.0 };
         let distance = 1.0 - origin[axis] * direction[axis];
-        let hit = accel.intersect(origin, direction, f32::INFINITY);
+        let hit = accel.intersect(origin, direction, f32::INFINITY, None);
         if distance == 0.0 {
             assert_eq!(hit, None);
         } else {
@@ -227,15 +227,15 @@ fn triangles_that_cannot_be_hit_and_duplicates_are_left_out() {
     let accel = Accel::build(&triangles);
     let stats = accel.stats();
     assert_eq!((stats.triangles, stats.degenerate, stats.duplicates), (2, 4, 2));
-    let hit = accel.intersect(v(0.2, 0.2, 1.0), v(0.0, 0.0, -1.0), 2.0);
+    let hit = accel.intersect(v(0.2, 0.2, 1.0), v(0.0, 0.0, -1.0), 2.0, None);
     assert_eq!(hit.map(|hit| (hit.t, hit.primitive)), Some((1.0, 1)));
 }
 
 #[test]
 fn nothing_is_hit_where_nothing_is() {
     let accel = Accel::build(&[]);
-    assert_eq!(accel.intersect(Vec3::ZERO, Vec3::X, f32::INFINITY), None);
-    assert!(!accel.occluded(Vec3::ZERO, Vec3::X));
+    assert_eq!(accel.intersect(Vec3::ZERO, Vec3::X, f32::INFINITY, None), None);
+    assert!(!accel.occluded(Vec3::ZERO, Vec3::X, None));
     assert_eq!(accel.stats(), Default::default());
 }
 
@@ -252,8 +252,8 @@ fn rays_that_are_not_finite_hit_nothing() {
         for (origin, direction) in
             [(origin, vector), (vector, origin), (ordinary, vector), (vector, ordinary)]
         {
-            let hit = accel.intersect(origin, direction, f32::INFINITY);
-            let blocked = accel.occluded(origin, direction);
+            let hit = accel.intersect(origin, direction, f32::INFINITY, None);
+            let blocked = accel.occluded(origin, direction, None);
             if !origin.is_finite() || !direction.is_finite() || direction == Vec3::ZERO {
                 assert_eq!(hit, None);
             }
@@ -263,7 +263,7 @@ fn rays_that_are_not_finite_hit_nothing() {
         }
     }
     for t_max in [f32::NAN, 0.0, -1.0, f32::NEG_INFINITY] {
-        assert_eq!(accel.intersect(Vec3::ZERO, Vec3::X, t_max), None);
+        assert_eq!(accel.intersect(Vec3::ZERO, Vec3::X, t_max, None), None);
     }
 }
 
@@ -304,15 +304,30 @@ fn a_light_does_not_block_itself_but_what_is_before_it_does() {
                 if height < 4.0 * rounding {
                     continue;
                 }
-                assert!(!alone.occluded(origin, target), "{at:?}: its own light, from {away}");
-                assert!(!backed.occluded(origin, target), "{at:?}: a sheet behind, from {away}");
+                assert!(!alone.occluded(origin, target, None), "{at:?}: its own light, from {away}");
+                assert!(!backed.occluded(origin, target, None), "{at:?}: a sheet behind, from {away}");
                 // Through the middle of the plate: from twice as high as it is, and not past its rim.
                 let inner = point_on(&light[0], [0.3 + 0.1 * random.next(), 0.3]);
                 let origin = inner + scale * (0.3 * random.point() + 2.0 * normal);
-                assert!(blocked.occluded(origin, inner), "{at:?}: a plate before");
-                assert!(!blocked.occluded(inner + scale * normal, inner + scale * 2.0 * normal));
+                assert!(blocked.occluded(origin, inner, None), "{at:?}: a plate before");
+                assert!(!blocked.occluded(inner + scale * normal, inner + scale * 2.0 * normal, None));
             }
         }
+    }
+}
+
+#[test]
+fn the_triangle_that_is_left_is_not_there() {
+    let plate = |z: f32| [Vec3::new(-1.0, -1.0, z), Vec3::new(2.0, -1.0, z), Vec3::new(-1.0, 2.0, z)];
+    // One packet, and a tree.
+    for count in [3, 100] {
+        let triangles: Vec<Triangle> = (0..count).map(|index| plate(index as f32)).collect();
+        let accel = Accel::build(&triangles);
+        let (origin, up) = (Vec3::new(0.1, 0.1, 0.5), Vec3::Z);
+        let hit = |leaves| accel.intersect(origin, up, f32::INFINITY, leaves).map(|hit| hit.primitive);
+        assert_eq!((hit(None), hit(Some(0)), hit(Some(1))), (Some(1), Some(1), Some(2)));
+        let blocked = |leaves| accel.occluded(origin, origin + up, leaves);
+        assert!(blocked(None) && blocked(Some(0)) && !blocked(Some(1)));
     }
 }
 
@@ -326,7 +341,7 @@ fn rays_do_not_hit_what_they_start_from() {
             let mut ray = (place(Vec3::ZERO), random.direction());
             let mut escaped = 0;
             for _ in 0..20_000 {
-                let Some(hit) = accel.intersect(ray.0, ray.1, f32::INFINITY) else {
+                let Some(hit) = accel.intersect(ray.0, ray.1, f32::INFINITY, None) else {
                     escaped += 1;
                     ray = (place(Vec3::ZERO), random.direction());
                     continue;
@@ -337,8 +352,10 @@ fn rays_do_not_hit_what_they_start_from() {
                 let direction = (inwards + 0.999 * random.direction()).normalize();
                 let origin = offset_origin(point_on(&triangle, hit.barycentrics), inwards, direction);
                 ray = (origin, direction);
-                let next = accel.intersect(ray.0, ray.1, f32::INFINITY);
+                let next = accel.intersect(ray.0, ray.1, f32::INFINITY, None);
                 assert_ne!(next.map(|next| next.primitive), Some(hit.primitive), "{at:?}");
+                let told = accel.intersect(ray.0, ray.1, f32::INFINITY, Some(hit.primitive));
+                assert_eq!(next, told, "{at:?}: to know what is left saves time and changes nothing");
             }
             // Points within rounding of an edge may come to lie on the far side of the neighbour's plane.
             let allowed = if at.1 == 0.0 { 2 } else { 2_000 };
@@ -364,10 +381,20 @@ fn both_kinds_of_code_give_the_same_bits() {
                 hit.map(|hit| (hit.t.to_bits(), hit.primitive, hit.barycentrics.map(f32::to_bits)))
             };
             let direction = target - origin;
-            let hit = accel.intersect(origin, direction, f32::INFINITY);
+            let hit = accel.intersect(origin, direction, f32::INFINITY, None);
             hits += usize::from(hit.is_some());
-            assert_eq!(bits(hit), bits(accel.intersect_with::<Portable>(origin, direction, f32::INFINITY)));
-            assert_eq!(accel.occluded(origin, target), accel.occluded_with::<Portable>(origin, target));
+            assert_eq!(
+                bits(hit),
+                bits(accel.intersect_with::<Portable>(
+                    Pairs::of(origin, direction),
+                    f32::INFINITY,
+                    NO_PRIMITIVE
+                ))
+            );
+            assert_eq!(
+                accel.occluded(origin, target, None),
+                accel.occluded_with::<Portable>(Pairs::of(origin, target), NO_PRIMITIVE)
+            );
         }
         assert!(hits > 10_000);
     }
@@ -384,7 +411,8 @@ fn a_halved_tree_gives_the_same_hits() {
     let mut random = Random(7);
     for _ in 0..10_000 {
         let (origin, direction) = (2.0 * random.point(), random.direction());
-        let [a, b] = [&accel, &halved].map(|accel| accel.intersect(origin, direction, 9.0).map(|hit| hit.t));
+        let [a, b] =
+            [&accel, &halved].map(|accel| accel.intersect(origin, direction, 9.0, None).map(|hit| hit.t));
         assert_eq!(a, b);
     }
 }
@@ -413,7 +441,7 @@ fn awkward_meshes_are_built_and_hit() {
         for triangle in &triangles {
             let target = point_on(triangle, [0.4, 0.4]);
             let origin = target + 3.0 * unit_normal(triangle).as_vec3() * target.length();
-            hit += usize::from(accel.intersect(origin, target - origin, 2.0).is_some());
+            hit += usize::from(accel.intersect(origin, target - origin, 2.0, None).is_some());
         }
         assert!(hit * 10 > triangles.len() * 9, "{hit} of {}", triangles.len());
     }
@@ -427,10 +455,10 @@ fn enormous_and_minute_scenes_are_hit() {
         let mut random = Random(9);
         for _ in 0..2000 {
             let direction = random.direction();
-            let hit = accel.intersect(Vec3::ZERO, direction, f32::INFINITY).map(|hit| hit.t / scale);
+            let hit = accel.intersect(Vec3::ZERO, direction, f32::INFINITY, None).map(|hit| hit.t / scale);
             assert!(hit.is_some_and(|t| (0.5..1.01).contains(&t)), "{hit:?} at scale {scale}");
-            assert!(accel.occluded(Vec3::ZERO, direction * (2.0 * scale)));
-            assert!(!accel.occluded(Vec3::ZERO, direction * (0.5 * scale)));
+            assert!(accel.occluded(Vec3::ZERO, direction * (2.0 * scale), None));
+            assert!(!accel.occluded(Vec3::ZERO, direction * (0.5 * scale), None));
         }
     }
 }

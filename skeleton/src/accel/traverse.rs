@@ -4,7 +4,7 @@ use std::mem::MaybeUninit;
 
 use glam::Vec3;
 
-use super::lanes::Lanes;
+use super::lanes::{Lanes, Row};
 use super::packet::Nearest;
 use super::ray::{PreparedRay, Slabs};
 use super::tree::{Child, Kind, Node, Tree};
@@ -12,14 +12,6 @@ use super::tree::{Child, Kind, Node, Tree};
 /// Room for children that wait for their turn. A tree made by halving needs no more than seven for each of its
 /// levels, of which there are at most 32.
 pub(super) const STACK_SIZE: usize = 7 * 32 + 1;
-
-/// Children that wait for their turn, each with the distance at which its box begins.
-///
-/// Not cleared at the start, which would take as long as the traversal of a small scene.
-struct Stack {
-    entries: [MaybeUninit<Entry>; STACK_SIZE],
-    length: usize,
-}
 
 /// A child and the distance at which its box begins, which is not negative.
 ///
@@ -44,15 +36,31 @@ impl Entry {
     }
 }
 
-impl Stack {
+/// Room for a stack.
+///
+/// Not cleared at the start, which would take as long as the traversal of a small scene.
+type Room = [MaybeUninit<Entry>; STACK_SIZE];
+
+const ROOM: Room = [const { MaybeUninit::uninit() }; STACK_SIZE];
+
+/// Children that wait for their turn.
+///
+/// It borrows its room, so that its length is not part of an array that is written to at varying places: then it stays
+/// in a register.
+struct Stack<'a> {
+    room: &'a mut Room,
+    length: usize,
+}
+
+impl<'a> Stack<'a> {
     #[inline(always)]
-    fn new() -> Self {
-        Self { entries: [const { MaybeUninit::uninit() }; STACK_SIZE], length: 0 }
+    fn new(room: &'a mut Room) -> Self {
+        Self { room, length: 0 }
     }
 
     #[inline(always)]
     fn push(&mut self, entry: Entry) {
-        self.entries[self.length] = MaybeUninit::new(entry);
+        self.room[self.length] = MaybeUninit::new(entry);
         self.length += 1;
     }
 
@@ -62,10 +70,10 @@ impl Stack {
         let mut position = self.length;
         self.push(entry);
         while position > start && self.get(position - 1) < entry {
-            self.entries[position] = self.entries[position - 1];
+            self.room[position] = self.room[position - 1];
             position -= 1;
         }
-        self.entries[position] = MaybeUninit::new(entry);
+        self.room[position] = MaybeUninit::new(entry);
     }
 
     #[inline(always)]
@@ -80,7 +88,7 @@ impl Stack {
     #[inline(always)]
     fn get(&self, index: usize) -> Entry {
         // SAFETY: only called with indices below what `length` was at the last push, and `push` has written those.
-        unsafe { self.entries[index].assume_init() }
+        unsafe { self.room[index].assume_init() }
     }
 }
 
@@ -102,6 +110,14 @@ impl Node {
         }
         (near.le(far), near)
     }
+
+    /// Takes the lowest bit off, and gives the child that it stands for.
+    #[inline(always)]
+    fn entry(&self, distances: &Row, bits: &mut u32) -> Entry {
+        let lane = bits.trailing_zeros() as usize;
+        *bits &= *bits - 1;
+        Entry::new(distances.0[lane], self.children[lane])
+    }
 }
 
 impl Tree {
@@ -115,7 +131,8 @@ impl Tree {
             return;
         }
         let slabs = Slabs::new(ray, self.bounds);
-        let mut stack = Stack::new();
+        let mut room = ROOM;
+        let mut stack = Stack::new(&mut room);
         let mut next = Child::ROOT;
         loop {
             match next.kind() {
@@ -123,12 +140,18 @@ impl Tree {
                 Kind::Node(node) => {
                     let node = &self.nodes[node];
                     let (mut met, distances) = node.meet::<V>(&slabs, nearest.t);
-                    let distances = distances.store();
-                    let start = stack.length;
-                    while met != 0 {
-                        let lane = met.trailing_zeros() as usize;
-                        met &= met - 1;
-                        stack.push_sorted(start, Entry::new(distances.0[lane], node.children[lane]));
+                    if met != 0 {
+                        // The nearest next, the others later in order.
+                        let distances = distances.store();
+                        let mut first = node.entry(&distances, &mut met);
+                        let start = stack.length;
+                        while met != 0 {
+                            let entry = node.entry(&distances, &mut met);
+                            stack.push_sorted(start, first.max(entry));
+                            first = first.min(entry);
+                        }
+                        next = first.child();
+                        continue;
                     }
                 }
             }
@@ -149,7 +172,8 @@ impl Tree {
             return self.packets.iter().any(|packet| packet.occludes::<V>(ray, target, reach));
         }
         let slabs = Slabs::new(ray, self.bounds);
-        let mut stack = Stack::new();
+        let mut room = ROOM;
+        let mut stack = Stack::new(&mut room);
         let mut next = Child::ROOT;
         loop {
             match next.kind() {
@@ -160,22 +184,17 @@ impl Tree {
                 }
                 Kind::Node(node) => {
                     let node = &self.nodes[node];
-                    // The nearest next, the others in any order: the first blocker found ends it all.
                     let (mut met, distances) = node.meet::<V>(&slabs, 1.0);
-                    let distances = distances.store();
-                    let mut nearest = Entry(u64::MAX);
-                    while met != 0 {
-                        let lane = met.trailing_zeros() as usize;
-                        met &= met - 1;
-                        let entry = Entry::new(distances.0[lane], node.children[lane]);
-                        let other = nearest.max(entry);
-                        nearest = nearest.min(entry);
-                        if other != Entry(u64::MAX) {
-                            stack.push(other);
+                    if met != 0 {
+                        // The nearest next, the others in any order: the first blocker found ends it all.
+                        let distances = distances.store();
+                        let mut first = node.entry(&distances, &mut met);
+                        while met != 0 {
+                            let entry = node.entry(&distances, &mut met);
+                            stack.push(first.max(entry));
+                            first = first.min(entry);
                         }
-                    }
-                    if nearest != Entry(u64::MAX) {
-                        next = nearest.child();
+                        next = first.child();
                         continue;
                     }
                 }

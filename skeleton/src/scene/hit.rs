@@ -1,6 +1,6 @@
 //! The point where a ray meets a surface.
 
-use super::{NONE, Scene, Specular, Surface, Triangle};
+use super::{Attributes, NONE, Scene, Specular, Surface, Triangle};
 use crate::accel::{TriangleHit, offset_origin, point_on};
 use crate::bsdf::{Bsdf, Glass, Lobe, LocalGeometry, Phong};
 use crate::light::Light;
@@ -20,9 +20,23 @@ pub struct Hit<'a> {
     pub wo: Vec3,
     pub(super) scene: &'a Scene,
     pub(super) triangle: &'a Triangle,
+    /// The index of the triangle.
+    pub(super) primitive: u32,
     barycentrics: [f32; 2],
     /// True if the ray came from the front.
     front: bool,
+}
+
+impl Attributes {
+    /// The interpolated normal on the viewer's side; that of the triangle if there is none, or if the viewer would be
+    /// below its horizon.
+    #[inline(never)]
+    fn normal(&self, [v, w]: [f32; 2], geometric_normal: Vec3, wo: Vec3) -> Vec3 {
+        let Some([a, b, c]) = self.normals else { return geometric_normal };
+        let normal = ((1.0 - v - w) * a + v * b + w * c).normalize_or_zero();
+        let normal = if normal.dot(geometric_normal) < 0.0 { -normal } else { normal };
+        if normal.dot(wo) > 0.0 { normal } else { geometric_normal }
+    }
 }
 
 impl<'a> Hit<'a> {
@@ -32,32 +46,22 @@ impl<'a> Hit<'a> {
         let wo = -ray.direction;
         let front = triangle.normal.dot(wo) >= 0.0;
         let geometric_normal = if front { triangle.normal } else { -triangle.normal };
-        let mut this = Self {
+        let normal = match triangle.attributes {
+            NONE => geometric_normal,
+            attributes => {
+                scene.attributes[attributes as usize].normal(hit.barycentrics, geometric_normal, wo)
+            }
+        };
+        Self {
             point: point_on(&triangle.vertices, hit.barycentrics),
-            normal: geometric_normal,
+            normal,
             geometric_normal,
             wo,
             scene,
             triangle,
+            primitive: hit.primitive,
             barycentrics: hit.barycentrics,
             front,
-        };
-        if triangle.attributes != NONE {
-            this.interpolate_normal();
-        }
-        this
-    }
-
-    /// Replaces the shading normal by the interpolated one, unless the viewer would be below its horizon.
-    fn interpolate_normal(&mut self) {
-        let Some([a, b, c]) = self.scene.attributes[self.triangle.attributes as usize].normals else {
-            return;
-        };
-        let [v, w] = self.barycentrics;
-        let normal = ((1.0 - v - w) * a + v * b + w * c).normalize_or_zero();
-        let normal = if normal.dot(self.geometric_normal) < 0.0 { -normal } else { normal };
-        if normal.dot(self.wo) > 0.0 {
-            self.normal = normal;
         }
     }
 
@@ -150,7 +154,7 @@ impl<'a> Hit<'a> {
     /// the surface that it leaves.
     #[inline]
     pub fn spawn(&self, wi: Vec3) -> Ray {
-        Ray::new(self.leave_towards(wi), wi)
+        Ray { leaves: Some(self.primitive), ..Ray::new(self.leave_towards(wi), wi) }
     }
 
     /// The point just off the surface from which something that lies in the given direction is looked at.

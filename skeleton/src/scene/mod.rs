@@ -78,7 +78,7 @@ impl Scene {
     pub fn intersect(&self, ray: &Ray) -> Option<Hit<'_>> {
         #[cfg(feature = "probe")]
         crate::probe::count(|counts| counts.rays += 1);
-        let hit = self.accel.intersect(ray.origin, ray.direction, f32::INFINITY);
+        let hit = self.accel.intersect(ray.origin, ray.direction, f32::INFINITY, ray.leaves);
         let hit = hit.map(|hit| Hit::new(self, ray, hit));
         #[cfg(feature = "probe")]
         scripted::record_intersect(ray, hit.as_ref());
@@ -91,7 +91,8 @@ impl Scene {
     /// offsets are needed. Everything else does, glass too.
     #[inline]
     pub fn occluded(&self, hit: &Hit<'_>, point: Vec3) -> bool {
-        let occluded = || self.accel.occluded(hit.leave_towards(point - hit.point), point);
+        let occluded =
+            || self.accel.occluded(hit.leave_towards(point - hit.point), point, Some(hit.primitive));
         #[cfg(feature = "probe")]
         let occluded = || self.probe_shadow_ray(hit, point, occluded);
         occluded()
