@@ -1,7 +1,6 @@
 //! A binary tree over triangles, one triangle a leaf.
 
-use std::collections::HashMap;
-
+use foldhash::{HashMap, HashMapExt};
 use glam::Vec3;
 use obvhs::Boundable;
 use obvhs::aabb::Aabb;

@@ -1,8 +1,8 @@
 //! Which triangles are worth keeping.
 
-use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
+use foldhash::{HashMap, HashMapExt};
 use glam::{DVec3, Vec3};
 
 use super::exact;

@@ -122,9 +122,10 @@ impl Builder {
 
     fn finish(mut self, description: &SceneDescription) -> Scene {
         let corners: Vec<[Vec3; 3]> = self.triangles.iter().map(|triangle| triangle.vertices).collect();
-        let accel = Accel::build(&corners);
+        let (accel, closed) =
+            rayon::join(|| Accel::build(&corners), || encloses(&self.opaque(), description.camera.eye));
         self.settle_duplicates(accel.duplicates());
-        let features = self.features(description, &accel);
+        let features = self.features(&accel, closed);
         let mut warnings = Vec::new();
         if self.degenerate > 0 {
             warnings.push(format!("{} triangles without an area were left out", self.degenerate));
@@ -192,7 +193,16 @@ impl Builder {
         }
     }
 
-    fn features(&self, description: &SceneDescription, accel: &Accel) -> Features {
+    /// What light does not pass; it gets lost through glass as through a hole.
+    fn opaque(&self) -> Vec<[Vec3; 3]> {
+        let is_glass = |triangle: &Triangle| {
+            matches!(self.surfaces[triangle.surface as usize].specular, Specular::Glass { .. })
+        };
+        let opaque = self.triangles.iter().filter(|triangle| !is_glass(triangle));
+        opaque.map(|triangle| triangle.vertices).collect()
+    }
+
+    fn features(&self, accel: &Accel, closed: bool) -> Features {
         let count = |has: &dyn Fn(&Triangle, &Surface) -> bool| {
             self.triangles
                 .iter()
@@ -200,15 +210,6 @@ impl Builder {
                 .count()
         };
         let area_lights = self.lights.iter().filter(|light| light.has_area()).count();
-        // Light gets lost through glass as through a hole.
-        let opaque: Vec<[Vec3; 3]> = self
-            .triangles
-            .iter()
-            .filter(|triangle| {
-                !matches!(self.surfaces[triangle.surface as usize].specular, Specular::Glass { .. })
-            })
-            .map(|triangle| triangle.vertices)
-            .collect();
         Features {
             triangles: self.triangles.len(),
             area_lights,
@@ -224,7 +225,7 @@ impl Builder {
             smooth_surfaces: count(&|triangle, _| {
                 self.attributes.get(triangle.attributes as usize).is_some_and(|it| it.normals.is_some())
             }),
-            closed: encloses(&opaque, description.camera.eye),
+            closed,
             hierarchy: accel.stats().nodes > 0,
         }
     }

@@ -1,8 +1,8 @@
 //! Is the camera enclosed?
 
-use std::collections::HashMap;
-
+use foldhash::{HashMap, HashMapExt};
 use glam::DVec3;
+use rayon::slice::ParallelSliceMut;
 
 use crate::math::Vec3;
 
@@ -14,16 +14,26 @@ use crate::math::Vec3;
 /// Surfaces that only touch without sharing vertices count as open, so that "closed" can be relied on and "open"
 /// cannot.
 pub(super) fn encloses(triangles: &[[Vec3; 3]], eye: Vec3) -> bool {
-    let edges = edges(triangles);
+    let corners = || triangles.as_flattened().iter().copied();
+    let (Some(least), Some(greatest)) = (corners().reduce(Vec3::min), corners().reduce(Vec3::max)) else {
+        return false;
+    };
+    if eye.cmplt(least).any() || eye.cmpgt(greatest).any() {
+        return false;
+    }
     let mut sets = DisjointSets::new(triangles.len());
-    for owners in edges.values() {
+    let mut alone = Vec::new();
+    for owners in edges(triangles).chunk_by(|a, b| a.0 == b.0) {
         for pair in owners.windows(2) {
-            sets.union(pair[0], pair[1]);
+            sets.union(pair[0].1, pair[1].1);
+        }
+        if owners.len() % 2 == 1 {
+            alone.push(owners[0].1);
         }
     }
     let mut open = vec![false; triangles.len()];
-    for owners in edges.values().filter(|owners| owners.len() % 2 == 1) {
-        open[sets.find(owners[0]) as usize] = true;
+    for triangle in alone {
+        open[sets.find(triangle) as usize] = true;
     }
     // In each set, for each direction, whether it is crossed an odd number of times.
     let mut odd = vec![[false; DIRECTIONS.len()]; triangles.len()];
@@ -56,20 +66,23 @@ fn crosses([a, b, c]: [DVec3; 3], direction: DVec3) -> bool {
     inside && (a.dot(b.cross(c)) > 0.0) == (sides[0] > 0.0)
 }
 
-type Edge = [[u32; 3]; 2];
-
-/// For each edge, by the bits of its end points, the triangles it belongs to.
-fn edges(triangles: &[[Vec3; 3]]) -> HashMap<Edge, Vec<u32>> {
-    let mut edges: HashMap<Edge, Vec<u32>> = HashMap::new();
+/// Each triangle's edges, by the numbers of their ends, with the triangle; equal ones next to each other.
+fn edges(triangles: &[[Vec3; 3]]) -> Vec<([u32; 2], u32)> {
+    let mut numbers: HashMap<[u32; 3], u32> = HashMap::with_capacity(triangles.len());
+    let mut edges = Vec::with_capacity(3 * triangles.len());
     for (index, vertices) in triangles.iter().enumerate() {
-        // Adding zero makes -0 into 0.
-        let key = vertices.map(|vertex| (vertex + Vec3::ZERO).to_array().map(f32::to_bits));
+        let corners = vertices.map(|vertex| {
+            let next = numbers.len() as u32;
+            // Adding zero makes -0 into 0.
+            *numbers.entry((vertex + Vec3::ZERO).to_array().map(f32::to_bits)).or_insert(next)
+        });
         for (a, b) in [(0, 1), (1, 2), (2, 0)] {
-            let mut edge = [key[a], key[b]];
+            let mut edge = [corners[a], corners[b]];
             edge.sort_unstable();
-            edges.entry(edge).or_default().push(index as u32);
+            edges.push((edge, index as u32));
         }
     }
+    edges.par_sort_unstable();
     edges
 }
 
