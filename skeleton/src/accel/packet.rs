@@ -23,9 +23,10 @@ pub(super) struct Packet {
     pub(super) corners: [[Row; 3]; 3],
     /// The triangles' indices in the list that the structure was built from.
     pub(super) primitives: Indices,
-    /// Their planes, for close calls.
-    planes: [Plane; 8],
 }
+
+/// The planes of a packet's triangles, for close calls: apart from the packet, which is read far more often.
+pub(super) type Planes = [Plane; 8];
 
 /// The index of no triangle.
 pub(super) const NO_PRIMITIVE: u32 = u32::MAX;
@@ -61,11 +62,8 @@ struct Crossing<V> {
 
 impl Packet {
     /// A packet without triangles.
-    pub(super) const EMPTY: Self = Self {
-        corners: [[Row([f32::NAN; 8]); 3]; 3],
-        primitives: Indices([NO_PRIMITIVE; 8]),
-        planes: [Plane::NONE; 8],
-    };
+    pub(super) const EMPTY: Self =
+        Self { corners: [[Row([f32::NAN; 8]); 3]; 3], primitives: Indices([NO_PRIMITIVE; 8]) };
 
     /// Puts a triangle into a lane.
     pub(super) fn set(&mut self, lane: usize, triangle: &[Vec3; 3], primitive: u32) {
@@ -75,7 +73,6 @@ impl Packet {
             }
         }
         self.primitives.0[lane] = primitive;
-        self.planes[lane] = Plane::new(triangle);
     }
 
     /// Corner 0 of the triangle in a lane.
@@ -86,20 +83,20 @@ impl Packet {
 
     /// Settles in f64 at what distance the triangle in a lane is ahead, if it is.
     #[inline(always)]
-    fn distance_ahead(&self, lane: usize, ray: &PreparedRay) -> Option<f32> {
+    fn distance_ahead(&self, planes: &Planes, lane: usize, ray: &PreparedRay) -> Option<f32> {
         let (origin, direction) = (Vec3::from(ray.origin), Vec3::from(ray.direction));
-        exact::distance_ahead(&self.planes[lane], self.first_corner(lane), origin, direction)
+        exact::distance_ahead(&planes[lane], self.first_corner(lane), origin, direction)
     }
 
     /// Settles in f64 whether the triangle in a lane separates the ray's origin from `target`.
     #[inline(always)]
-    fn separates(&self, lane: usize, ray: &PreparedRay, target: Vec3) -> bool {
-        exact::separates(&self.planes[lane], self.first_corner(lane), Vec3::from(ray.origin), target)
+    fn separates(&self, planes: &Planes, lane: usize, ray: &PreparedRay, target: Vec3) -> bool {
+        exact::separates(&planes[lane], self.first_corner(lane), Vec3::from(ray.origin), target)
     }
 
     /// Replaces `nearest` by the nearest hit in this packet if that is nearer.
     #[inline(always)]
-    pub(super) fn intersect<V: Lanes>(&self, ray: &PreparedRay, nearest: &mut Nearest) {
+    pub(super) fn intersect<V: Lanes>(&self, planes: &Planes, ray: &PreparedRay, nearest: &mut Nearest) {
         let Some(crossing) = self.cross::<V>(ray) else { return };
         let zero = V::splat(0.0);
         let z_scale = V::splat(1.0 / ray.direction[ray.axes[2]]);
@@ -118,7 +115,7 @@ impl Packet {
             let t = if unclear >> lane & 1 == 0 {
                 t.0[lane]
             } else {
-                match self.distance_ahead(lane, ray) {
+                match self.distance_ahead(planes, lane, ray) {
                     Some(t) => t,
                     None => continue,
                 }
@@ -137,7 +134,13 @@ impl Packet {
     /// True if a triangle has `target` and the ray's origin on different sides and the ray passes through it
     /// between them. `target` is where the ray is after one length of its direction.
     #[inline(always)]
-    pub(super) fn occludes<V: Lanes>(&self, ray: &PreparedRay, target: Vec3, reach: f32) -> bool {
+    pub(super) fn occludes<V: Lanes>(
+        &self,
+        planes: &Planes,
+        ray: &PreparedRay,
+        target: Vec3,
+        reach: f32,
+    ) -> bool {
         let Some(crossing) = self.cross::<V>(ray) else { return false };
         let zero = V::splat(0.0);
         let z = ray.direction[ray.axes[2]];
@@ -156,7 +159,7 @@ impl Packet {
         while lanes != 0 {
             let lane = lanes.trailing_zeros() as usize;
             lanes &= lanes - 1;
-            if self.separates(lane, ray, target) {
+            if self.separates(planes, lane, ray, target) {
                 return true;
             }
         }

@@ -125,8 +125,8 @@ impl Tree {
     #[inline(always)]
     pub(super) fn intersect<V: Lanes>(&self, ray: &PreparedRay, nearest: &mut Nearest) {
         if self.nodes.is_empty() {
-            for packet in &self.packets {
-                packet.intersect::<V>(ray, nearest);
+            for (packet, planes) in self.packets.iter().zip(&self.planes) {
+                packet.intersect::<V>(planes, ray, nearest);
             }
             return;
         }
@@ -136,7 +136,9 @@ impl Tree {
         let mut next = Child::ROOT;
         loop {
             match next.kind() {
-                Kind::Packet(packet) => self.packets[packet].intersect::<V>(ray, nearest),
+                Kind::Packet(packet) => {
+                    self.packets[packet].intersect::<V>(&self.planes[packet], ray, nearest)
+                }
                 Kind::Node(node) => {
                     let node = &self.nodes[node];
                     let (mut met, distances) = node.meet::<V>(&slabs, nearest.t);
@@ -169,7 +171,11 @@ impl Tree {
     #[inline(always)]
     pub(super) fn occluded<V: Lanes>(&self, ray: &PreparedRay, target: Vec3, reach: f32) -> bool {
         if self.nodes.is_empty() {
-            return self.packets.iter().any(|packet| packet.occludes::<V>(ray, target, reach));
+            return self
+                .packets
+                .iter()
+                .zip(&self.planes)
+                .any(|(packet, planes)| packet.occludes::<V>(planes, ray, target, reach));
         }
         let slabs = Slabs::new(ray, self.bounds);
         let mut room = ROOM;
@@ -178,7 +184,7 @@ impl Tree {
         loop {
             match next.kind() {
                 Kind::Packet(packet) => {
-                    if self.packets[packet].occludes::<V>(ray, target, reach) {
+                    if self.packets[packet].occludes::<V>(&self.planes[packet], ray, target, reach) {
                         return true;
                     }
                 }

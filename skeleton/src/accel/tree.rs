@@ -8,8 +8,9 @@
 use glam::Vec3;
 
 use super::binary::{BinaryNode, BinaryTree};
+use super::exact::Plane;
 use super::lanes::Row;
-use super::packet::Packet;
+use super::packet::{Packet, Planes};
 
 /// Expected cost of visiting a node, where visiting a packet costs 1.
 const NODE_COST: f32 = 1.0;
@@ -79,6 +80,8 @@ pub(super) struct Tree {
     pub(super) bounds: [Vec3; 2],
     /// The leaves.
     pub(super) packets: Vec<Packet>,
+    /// The planes of each packet.
+    pub(super) planes: Vec<Planes>,
     /// Nodes on the longest way from the root to a packet.
     pub(super) depth: usize,
     /// The most children that can be waiting for their turn at one time in a depth-first traversal.
@@ -233,10 +236,12 @@ impl Builder<'_> {
 
     /// Adds a packet and returns its index.
     fn add_packet(&mut self, triangles: &[usize]) -> u32 {
-        let mut packet = Packet::EMPTY;
+        let (mut packet, mut planes) = (Packet::EMPTY, [Plane::NONE; 8]);
         for (lane, triangle) in triangles.iter().enumerate() {
             packet.set(lane, &self.triangles[*triangle], self.primitives[*triangle]);
+            planes[lane] = Plane::new(&self.triangles[*triangle]);
         }
+        self.tree.planes.push(planes);
         self.tree.packets.push(packet);
         self.tree.packets.len() as u32 - 1
     }
