@@ -1,5 +1,6 @@
 //! `grader calibrate`.
 
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -146,9 +147,13 @@ impl Calibration<'_> {
                 if self.is_over() {
                     return Ok(());
                 }
-                self.try_check(variant, spec, &wanted, |recorder| {
-                    Ok(Some((recorder.correct(&program)?, None)))
-                })?;
+                self.try_check(
+                    variant,
+                    spec,
+                    &wanted,
+                    |recorder| recorder.correct(&program).map(Some),
+                    None,
+                )?;
                 bar.inc(1);
             }
         }
@@ -159,29 +164,28 @@ impl Calibration<'_> {
     /// All tests on wrong variants, in the checks of the tasks that these cost.
     fn compare(&mut self) -> Result<()> {
         let Some(solution) = self.right.first() else { return Ok(()) };
+        let (rubric, wrong) = (self.rubric, self.wrong);
+        let by_means = |spec: &&CheckSpec| BY_MEANS.contains(&spec.check);
+        let checks = || rubric.tasks.iter().flat_map(|task| task.checks.iter().map(move |spec| (task, spec)));
+        let bar = ProgressBar::new(checks().filter(|(_, spec)| by_means(spec)).count() as u64)
+            .with_message("wrong variants");
         let solution = self.compile(solution)?;
-        let bar = ProgressBar::new(self.wrong.len() as u64).with_message("wrong variants");
-        for variant in self.wrong {
-            let program = self.compile(variant)?;
-            let of_lost: Vec<CheckSpec> = self
-                .rubric
-                .tasks
-                .iter()
-                .filter(|task| variant.costs.contains(&task.id))
-                .flat_map(|task| &task.checks)
-                .filter(|spec| BY_MEANS.contains(&spec.check))
-                .cloned()
-                .collect();
-            for spec in &of_lost {
+        let programs: Vec<HandInProgram> =
+            wrong.iter().map(|variant| self.compile(variant)).collect::<Result<_>>()?;
+        for (task, spec) in checks().filter(|(_, spec)| by_means(spec)) {
+            // What is right is recorded once for all that is wrong, and not before it is needed.
+            let truth = OnceCell::new();
+            for (variant, program) in wrong.iter().zip(&programs) {
                 if self.is_over() {
                     return Ok(());
                 }
+                if !variant.costs.contains(&task.id) {
+                    continue;
+                }
                 let wanted = Test::ALL.map(|test| (test, 0.0, self.arguments.rivals));
-                self.try_check(variant, spec, &wanted, |recorder| {
-                    // What does not even render is found by that, whatever the test.
-                    let Ok(pool) = recorder.record(&program)? else { return Ok(None) };
-                    Ok(Some((pool, Some(recorder.correct(&solution)?))))
-                })?;
+                // What does not even render is found by that, whatever the test.
+                let record = |recorder: &Recorder<'_>| recorder.record(program).map(std::result::Result::ok);
+                self.try_check(variant, spec, &wanted, record, Some((&solution, &truth)))?;
             }
             bar.inc(1);
         }
@@ -194,14 +198,15 @@ impl Calibration<'_> {
             .map_err(|failure| Error::Harness(format!("{}: {}", variant.id, failure.messages)))
     }
 
-    /// Whatever is wanted of one check and not yet known. `record` gives the samples that are judged and, where they are
-    /// wrong, right ones; nothing if there are none.
+    /// Whatever is wanted of one check and not yet known. `record` gives the samples that are judged, if there are any;
+    /// `truth` those of a correct program, recorded by now or not, if they are wrong.
     fn try_check(
         &mut self,
         variant: &Variant,
         spec: &CheckSpec,
         wanted: &[(Test, f64, u64)],
-        record: impl FnOnce(&Recorder<'_>) -> Result<Option<(Pool, Option<Pool>)>>,
+        record: impl FnOnce(&Recorder<'_>) -> Result<Option<Pool>>,
+        truth: Option<(&HandInProgram, &OnceCell<Pool>)>,
     ) -> Result<()> {
         let mut wanted = wanted.to_vec();
         wanted.retain(|&(test, bias, count)| {
@@ -217,11 +222,21 @@ impl Calibration<'_> {
         }
         let judged = &self.scenes[&spec.scene];
         let recorder = Recorder { judged, spec, count: self.arguments.pool, threads: self.threads };
-        let Some((pool, truth)) = record(&recorder)? else { return Ok(()) };
+        let Some(pool) = record(&recorder)? else { return Ok(()) };
+        let truth = match truth {
+            None => &pool,
+            Some((program, truth)) => match truth.get() {
+                Some(truth) => truth,
+                None => {
+                    let recorded = recorder.correct(program)?;
+                    truth.get_or_init(|| recorded)
+                }
+            },
+        };
         let expected = crate::checks::expected_by_reference(spec, &judged.reference)?;
         let trial = Trial {
             pool: &pool,
-            truth: truth.as_ref().unwrap_or(&pool),
+            truth,
             expected: &expected,
             tolerance: spec.tolerance,
             screening_level: SCREENING_LEVEL / self.rubric.checks().count() as f64,
