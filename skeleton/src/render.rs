@@ -57,7 +57,9 @@ pub fn render(
         }
         anomalies
     };
-    let anomalies = film.rows_mut().enumerate().map(row).reduce(Anomalies::default, |mut all, some| {
+    // Row by row, so that no thread is left with many of them while the others have nothing to do any more.
+    let rows = film.rows_mut().enumerate().with_max_len(1);
+    let anomalies = rows.map(row).reduce(Anomalies::default, |mut all, some| {
         all.merge(some);
         all
     });
