@@ -25,7 +25,7 @@ const BATCHES: u64 = 32;
 ///
 /// With four times as many samples, the confirmation of the last one takes 32,768 of each pixel. A reference has four
 /// times as many, and its own error is part of every comparison. The last look costs three times as much as all before
-/// it together, so it is taken only where a pass is [in sight](within_reach).
+/// it together, so it is taken only where a pass is in sight.
 pub const LOOKS: [u64; 5] = [1, 4, 16, 64, 256];
 
 /// Looks before this one (counted from 0) are too early for a pass: small tiles see too little.
