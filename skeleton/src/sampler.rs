@@ -30,7 +30,7 @@ impl Sampler {
     pub fn next_1d(&mut self) -> f32 {
         let number = self.own();
         #[cfg(feature = "probe")]
-        crate::probe::record(|| crate::probe::Call::new("Sampler::next_1d").got("number", number));
+        crate::probe::record(|| call_1d(number));
         number
     }
 
@@ -39,7 +39,7 @@ impl Sampler {
     pub fn next_2d(&mut self) -> (f32, f32) {
         let numbers = (self.own(), self.own());
         #[cfg(feature = "probe")]
-        crate::probe::record(|| crate::probe::Call::new("Sampler::next_2d").got("numbers", numbers));
+        crate::probe::record(|| call_2d(numbers));
         numbers
     }
 
@@ -72,6 +72,16 @@ impl Sampler {
         let shifted = (((old >> 18) ^ old) >> 27) as u32;
         shifted.rotate_right((old >> 59) as u32)
     }
+}
+
+#[cfg(feature = "probe")]
+fn call_1d(number: f32) -> crate::probe::Call {
+    crate::probe::Call::new("Sampler::next_1d").got("number", number)
+}
+
+#[cfg(feature = "probe")]
+fn call_2d(numbers: (f32, f32)) -> crate::probe::Call {
+    crate::probe::Call::new("Sampler::next_2d").got("numbers", numbers)
 }
 
 /// The seed of one of many independent renderings that belong to the same `seed`.

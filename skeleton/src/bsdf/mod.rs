@@ -108,7 +108,7 @@ impl Bsdf {
     pub fn eval(&self, wi: Vec3) -> Rgb {
         let f = self.value(wi);
         #[cfg(feature = "probe")]
-        crate::probe::record(|| crate::probe::Call::new("Bsdf::eval").given("wi", wi).got("f", f));
+        crate::probe::record(|| eval_call(wi, f));
         f
     }
 
@@ -139,7 +139,7 @@ impl Bsdf {
     pub fn pdf(&self, wi: Vec3) -> f32 {
         let pdf = self.density(wi);
         #[cfg(feature = "probe")]
-        crate::probe::record(|| crate::probe::Call::new("Bsdf::pdf").given("wi", wi).got("pdf", pdf));
+        crate::probe::record(|| pdf_call(wi, pdf));
         pdf
     }
 
@@ -173,7 +173,7 @@ impl Bsdf {
             None => self.sample_lobes(sampler),
         };
         #[cfg(feature = "probe")]
-        crate::probe::record(|| record_sample(sample));
+        crate::probe::record(|| sample_call(sample));
         sample
     }
 
@@ -211,7 +211,17 @@ impl Bsdf {
 }
 
 #[cfg(feature = "probe")]
-fn record_sample(sample: Option<BsdfSample>) -> crate::probe::Call {
+fn eval_call(wi: Vec3, f: Rgb) -> crate::probe::Call {
+    crate::probe::Call::new("Bsdf::eval").given("wi", wi).got("f", f)
+}
+
+#[cfg(feature = "probe")]
+fn pdf_call(wi: Vec3, pdf: f32) -> crate::probe::Call {
+    crate::probe::Call::new("Bsdf::pdf").given("wi", wi).got("pdf", pdf)
+}
+
+#[cfg(feature = "probe")]
+fn sample_call(sample: Option<BsdfSample>) -> crate::probe::Call {
     let call = crate::probe::Call::new("Bsdf::sample");
     match sample {
         None => call,

@@ -19,17 +19,7 @@ impl Light {
     ) -> Option<DirectSample> {
         count(|counts| counts.light_samples += 1);
         let sample = self.scripted_sample(from).unwrap_or_else(draw);
-        record(|| {
-            let call = Call::new("Light::sample_direct").given("light", self.index).given("from", from);
-            match sample {
-                None => call,
-                Some(DirectSample { point, intensity, pdf_area, cos }) => call
-                    .got("point", point)
-                    .got("intensity", intensity)
-                    .got("pdf_area", pdf_area)
-                    .got("cos", cos),
-            }
-        });
+        record(|| self.sample_call(from, sample));
         sample
     }
 
@@ -55,15 +45,22 @@ impl Light {
         if hit.switches().hits_off {
             emission.radiance = Rgb::BLACK;
         }
-        record(|| {
-            let Emission { radiance, pdf_area, cos } = emission;
-            Call::new("Light::emission")
-                .given("light", self.index)
-                .given("point", hit.point)
-                .got("radiance", radiance)
-                .got("pdf_area", pdf_area)
-                .got("cos", cos)
-        });
+        record(|| self.emission_call(hit, emission));
         emission
+    }
+
+    fn sample_call(&self, from: Vec3, sample: Option<DirectSample>) -> Call {
+        let call = Call::new("Light::sample_direct").given("light", self.index).given("from", from);
+        let Some(DirectSample { point, intensity, pdf_area, cos }) = sample else { return call };
+        call.got("point", point).got("intensity", intensity).got("pdf_area", pdf_area).got("cos", cos)
+    }
+
+    fn emission_call(&self, hit: &Hit<'_>, Emission { radiance, pdf_area, cos }: Emission) -> Call {
+        Call::new("Light::emission")
+            .given("light", self.index)
+            .given("point", hit.point)
+            .got("radiance", radiance)
+            .got("pdf_area", pdf_area)
+            .got("cos", cos)
     }
 }

@@ -56,7 +56,8 @@ pub fn take_recording(_: &Key) -> Recording {
     CALLS.take()
 }
 
-/// Adds a call, if anybody listens.
+/// Adds a call, if anybody listens. What makes the call should be a function that is not inlined: it would be compiled
+/// again with every hand-in.
 #[inline]
 pub(crate) fn record(call: impl FnOnce() -> Call) {
     if RECORDING.get() {

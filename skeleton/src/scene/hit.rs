@@ -146,7 +146,7 @@ impl<'a> Hit<'a> {
     pub fn cos(&self, wi: Vec3) -> f32 {
         let cos = self.normal.dot(wi).abs();
         #[cfg(feature = "probe")]
-        crate::probe::record(|| crate::probe::Call::new("Hit::cos").given("wi", wi).got("cos", cos));
+        crate::probe::record(|| super::scripted::cos_call(wi, cos));
         cos
     }
 

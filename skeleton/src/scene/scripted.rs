@@ -29,32 +29,35 @@ impl Scene {
     pub(super) fn probe_shadow_ray(&self, hit: &Hit<'_>, point: Vec3, trace: impl Fn() -> bool) -> bool {
         count(|counts| counts.shadow_rays += 1);
         let occluded = self.switches.shadows_off || trace();
-        record(|| {
-            Call::new("Scene::occluded")
-                .given("from", hit.point)
-                .given("point", point)
-                .got("occluded", occluded)
-        });
+        record(|| occluded_call(hit, point, occluded));
         occluded
     }
+}
+
+fn occluded_call(hit: &Hit<'_>, point: Vec3, occluded: bool) -> Call {
+    Call::new("Scene::occluded").given("from", hit.point).given("point", point).got("occluded", occluded)
+}
+
+pub(super) fn cos_call(wi: Vec3, cos: f32) -> Call {
+    Call::new("Hit::cos").given("wi", wi).got("cos", cos)
 }
 
 /// Records a ray and what it hits.
 #[inline]
 pub(super) fn record_intersect(ray: &Ray, hit: Option<&Hit<'_>>) {
-    record(|| {
-        let call =
-            Call::new("Scene::intersect").given("origin", ray.origin).given("direction", ray.direction);
-        let Some(hit) = hit else { return call };
-        let call = call.got("point", hit.point).got("normal", hit.normal).got("wo", hit.wo);
-        // The grader knows how many of the surfaces are materials.
-        let call =
-            call.got("surface", hit.triangle.surface as usize).got("surfaces", hit.scene.surfaces.len());
-        match hit.light() {
-            Some(light) => call.got("light", light.index()),
-            None => call,
-        }
-    });
+    record(|| intersect_call(ray, hit));
+}
+
+fn intersect_call(ray: &Ray, hit: Option<&Hit<'_>>) -> Call {
+    let call = Call::new("Scene::intersect").given("origin", ray.origin).given("direction", ray.direction);
+    let Some(hit) = hit else { return call };
+    let call = call.got("point", hit.point).got("normal", hit.normal).got("wo", hit.wo);
+    // The grader knows how many of the surfaces are materials.
+    let call = call.got("surface", hit.triangle.surface as usize).got("surfaces", hit.scene.surfaces.len());
+    match hit.light() {
+        Some(light) => call.got("light", light.index()),
+        None => call,
+    }
 }
 
 impl Hit<'_> {
