@@ -9,7 +9,7 @@ pub struct Ray {
     pub origin: Vec3,
     /// Where it goes; a unit vector, so that t is a distance in scene units.
     pub direction: Vec3,
-    /// The triangle that it leaves and does not hit, if it was spawned.
+    /// The triangle that it leaves and does not hit, if it was spawned, in whatever direction it is turned later.
     pub(crate) leaves: Option<u32>,
 }
 

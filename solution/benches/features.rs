@@ -89,7 +89,7 @@ fn plain() -> SceneDescription {
     scene
 }
 
-/// The scenes beside the plain one: by name, and what the name is followed by in the table.
+/// The scenes beside the plain one, each with its name in the table.
 fn variants() -> Vec<(String, SceneDescription)> {
     let plain = plain();
     let blocks = plain.materials.iter().position(|material| material.name == "blocks");
@@ -102,10 +102,10 @@ fn variants() -> Vec<(String, SceneDescription)> {
             variants.push((format!("{name}, {place}"), scene));
         }
     }
-    let black = LightDescription::Point { position: Vec3::new(0.0, 1.0, 0.0), power: Rgb::gray(1.0) };
+    let light = LightDescription::Point { position: Vec3::new(0.0, 1.0, 0.0), power: Rgb::gray(1.0) };
     for count in [1, 1000] {
         let mut scene = plain.clone();
-        scene.lights.extend(vec![black; count]);
+        scene.lights.extend(vec![light; count]);
         variants.push((format!("{count} more point lights"), scene));
     }
     for times in [4, 64] {

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::ptr::null;
 
 use arty::math::Vec3;
-use libloading::Library;
+use libloading::{Library, Symbol};
 
 /// Constants of Embree's headers.
 const GEOMETRY_TYPE_TRIANGLE: c_int = 0;
@@ -65,10 +65,10 @@ pub(super) struct Embree {
 }
 
 /// A committed scene of one mesh.
-pub(super) struct EmbreeScene {
+pub(super) struct EmbreeScene<'a> {
     scene: Handle,
-    intersect: unsafe extern "C" fn(Handle, *mut RayHit, *const c_void),
-    occluded: unsafe extern "C" fn(Handle, *mut RayHit, *const c_void),
+    intersect: Symbol<'a, unsafe extern "C" fn(Handle, *mut RayHit, *const c_void)>,
+    occluded: Symbol<'a, unsafe extern "C" fn(Handle, *mut RayHit, *const c_void)>,
 }
 
 impl Embree {
@@ -98,7 +98,7 @@ impl Embree {
         &self,
         triangles: &[[Vec3; 3]],
         robust: bool,
-    ) -> Result<EmbreeScene, Box<dyn std::error::Error>> {
+    ) -> Result<EmbreeScene<'_>, Box<dyn std::error::Error>> {
         type New = unsafe extern "C" fn(Handle) -> Handle;
         type Act = unsafe extern "C" fn(Handle);
         type Buffer = unsafe extern "C" fn(Handle, c_int, c_uint, c_int, usize, usize) -> *mut c_void;
@@ -138,14 +138,14 @@ impl Embree {
             self.library.get::<Act>(b"rtcCommitScene\0")?(scene);
             Ok(EmbreeScene {
                 scene,
-                intersect: *self.library.get(b"rtcIntersect1\0")?,
-                occluded: *self.library.get(b"rtcOccluded1\0")?,
+                intersect: self.library.get(b"rtcIntersect1\0")?,
+                occluded: self.library.get(b"rtcOccluded1\0")?,
             })
         }
     }
 }
 
-impl EmbreeScene {
+impl EmbreeScene<'_> {
     /// The triangle that the ray hits first.
     #[inline]
     pub(super) fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<u32> {

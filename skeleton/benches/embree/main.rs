@@ -42,11 +42,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let own = |ray: &Start| {
                 own.intersect(ray.origin, ray.direction, f32::INFINITY, ray.leaves).map(|hit| hit.primitive)
             };
-            let other = |scene: &EmbreeScene, ray: &Start| scene.intersect(ray.origin, ray.direction);
+            let other = |scene: &EmbreeScene<'_>, ray: &Start| scene.intersect(ray.origin, ray.direction);
             compare(&format!("{} {kind}", geometry.name), starts, own, &scenes, other);
         }
         let between = |segment: &Segment| own.occluded(segment.origin, segment.target, Some(segment.leaves));
-        let other = |scene: &EmbreeScene, segment: &Segment| scene.occluded(segment.origin, segment.target);
+        let other =
+            |scene: &EmbreeScene<'_>, segment: &Segment| scene.occluded(segment.origin, segment.target);
         compare(&format!("{} shadow", geometry.name), &rays.shadow, between, &scenes, other);
     }
     Ok(())
@@ -57,8 +58,8 @@ fn compare<R, A: PartialEq>(
     name: &str,
     rays: &[R],
     own: impl Fn(&R) -> A,
-    scenes: &[EmbreeScene; 2],
-    other: impl Fn(&EmbreeScene, &R) -> A,
+    scenes: &[EmbreeScene<'_>; 2],
+    other: impl Fn(&EmbreeScene<'_>, &R) -> A,
 ) {
     let mut speeds: [Vec<f64>; 3] = Default::default();
     for _ in 0..ROUNDS {

@@ -18,6 +18,7 @@ pub(super) fn encloses(triangles: &[[Vec3; 3]], eye: Vec3) -> bool {
     let (Some(least), Some(greatest)) = (corners().reduce(Vec3::min), corners().reduce(Vec3::max)) else {
         return false;
     };
+    // Most eyes that are not enclosed are not even within the box around everything, which takes no search to see.
     if eye.cmplt(least).any() || eye.cmpgt(greatest).any() {
         return false;
     }

@@ -151,7 +151,7 @@ impl<'a> Hit<'a> {
     }
 
     /// The ray that leaves this point into the unit direction `wi`, to either side of the surface. It does not hit
-    /// the surface that it leaves.
+    /// the surface that it leaves; for another direction spawn another ray.
     #[inline]
     pub fn spawn(&self, wi: Vec3) -> Ray {
         Ray { leaves: Some(self.primitive), ..Ray::new(self.leave_towards(wi), wi) }
