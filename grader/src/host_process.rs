@@ -1,11 +1,12 @@
 //! The process that runs a hand-in, seen from the grader.
 
 use std::borrow::Cow;
-use std::io::{BufReader, Write};
+use std::io::{BufReader, ErrorKind, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::Duration;
 
+use arty::integrator::Settings;
 use arty::scene::SceneDescription;
 use host::protocol::{
     ProbeJob, ProbedPath, RenderJob, Rendered, ReplayJob, Replayed, Request, Response, UNCONFINED,
@@ -27,8 +28,16 @@ pub struct HostProcess {
     responses: Receiver<std::io::Result<Option<Response>>>,
     scenes: u32,
     job_time: Duration,
+    /// In which scene and with which settings it rendered last.
+    tried: Option<(u32, Settings)>,
     layers: Layers,
 }
+
+/// This part of a job is rendered first, to see whether it will ever end …
+const TRIAL: usize = 8;
+
+/// … within this part of the time: a third more than its share.
+const TRIAL_TIME: u32 = 6;
 
 /// What a hand-in can do instead of answering. Each is a finding about it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -38,6 +47,8 @@ pub enum Fault {
     Panic(String),
     /// It did not answer within this time.
     Timeout(Duration),
+    /// It would not have answered in time: it did not render the first part of a job within this time.
+    TooSlow(Duration),
     /// Its process ended.
     Crash(String),
     /// Its answer was not what was asked for.
@@ -48,7 +59,10 @@ impl std::fmt::Display for Fault {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Panic(message) => write!(f, "it panicked: {message}"),
-            Self::Timeout(time) => write!(f, "it did not finish within {} s", time.as_secs()),
+            Self::Timeout(time) => write!(f, "it did not finish within {} s", time.as_secs_f64()),
+            Self::TooSlow(time) => {
+                write!(f, "it did not finish 1/{TRIAL} of it within {} s", time.as_secs_f64())
+            }
             Self::Crash(status) => write!(f, "its process ended early ({status})"),
             Self::Malformed(what) => write!(f, "its answer was not what was asked for ({what})"),
         }
@@ -74,13 +88,13 @@ impl HostProcess {
             // What a hand-in prints is nobody's verdict.
             .stderr(Stdio::null());
         sandbox::prepare(&mut command, Profile::Host { threads }, limits)?;
-        let mut child = command.spawn().map_err(trouble)?;
+        let mut child = spawn(&mut command).map_err(trouble)?;
         let requests = send(child.stdin.take().expect("stdin is piped"));
         let responses = receive(child.stdout.take().expect("stdout is piped"), limits.answer);
         let job_time = limits.job_time;
         let layers = Layers::default();
-        let mut process = Self { child, requests, responses, scenes: 0, job_time, layers };
-        match process.answer() {
+        let mut process = Self { child, requests, responses, scenes: 0, job_time, tried: None, layers };
+        match process.answer(job_time) {
             Ok(Response::Started(layers)) => process.layers = layers,
             Ok(_) => return Err(Error::Harness("the hand-in's program did not say that it is there".into())),
             Err(fault) => {
@@ -97,7 +111,7 @@ impl HostProcess {
 
     /// Sends a scene, and gives the number by which jobs refer to it.
     pub fn load(&mut self, scene: &SceneDescription) -> Answer<u32> {
-        match self.ask(&Request::Scene(Cow::Borrowed(scene)))? {
+        match self.ask(&Request::Scene(Cow::Borrowed(scene)), self.job_time)? {
             Ok(Response::SceneReady) => {
                 self.scenes += 1;
                 Ok(Ok(self.scenes - 1))
@@ -108,9 +122,31 @@ impl HostProcess {
     }
 
     /// Has batches rendered. All means are finite and there are as many as asked for.
+    ///
+    /// In a scene, and with settings, that are new to the process the first few batches go first: nobody waits for the
+    /// others if even these take too long.
     pub fn render(&mut self, job: &RenderJob) -> Answer<Rendered> {
+        let place = Some((job.scene, job.settings));
+        let known = std::mem::replace(&mut self.tried, place) == place;
+        let (trial, rest) = job.seeds.split_at(if known { 0 } else { job.seeds.len() / TRIAL });
+        if trial.is_empty() {
+            return self.render_in_time(job, self.job_time);
+        }
+        let part = |seeds: &[u64]| RenderJob { seeds: seeds.to_vec(), ..job.clone() };
+        let mut rendered = match self.render_in_time(&part(trial), self.job_time / TRIAL_TIME)? {
+            Ok(rendered) => rendered,
+            Err(Fault::Timeout(time)) => return Ok(Err(Fault::TooSlow(time))),
+            Err(fault) => return Ok(Err(fault)),
+        };
+        Ok(self.render_in_time(&part(rest), self.job_time)?.map(|more| {
+            rendered.append(more);
+            rendered
+        }))
+    }
+
+    fn render_in_time(&mut self, job: &RenderJob, time: Duration) -> Answer<Rendered> {
         let (pixels, batches) = ((job.width * job.height) as usize, job.seeds.len());
-        match self.ask(&Request::Render(Cow::Borrowed(job)))? {
+        match self.ask(&Request::Render(Cow::Borrowed(job)), time)? {
             Ok(Response::Rendered(rendered)) => Ok(check_shape(rendered, batches, pixels)),
             Ok(other) => unexpected(other),
             Err(fault) => Ok(Err(fault)),
@@ -119,7 +155,7 @@ impl HostProcess {
 
     /// Follows paths through scripted scenes: for each scene as many as asked for. Their radiance may be anything.
     pub fn probe(&mut self, job: &ProbeJob) -> Answer<Vec<Vec<ProbedPath>>> {
-        match self.ask(&Request::Probe(Cow::Borrowed(job)))? {
+        match self.ask(&Request::Probe(Cow::Borrowed(job)), self.job_time)? {
             Ok(Response::Probed(paths)) => {
                 let whole = paths.len() == job.scenes.len()
                     && paths.iter().all(|paths| paths.len() as u64 == job.samples);
@@ -136,32 +172,32 @@ impl HostProcess {
 
     /// Follows one path again, with every call written down. Its numbers may be anything.
     pub fn replay(&mut self, job: ReplayJob) -> Answer<Replayed> {
-        match self.ask(&Request::Replay(job))? {
+        match self.ask(&Request::Replay(job), self.job_time)? {
             Ok(Response::Replayed(path)) => Ok(Ok(path)),
             Ok(other) => unexpected(other),
             Err(fault) => Ok(Err(fault)),
         }
     }
 
-    fn ask(&mut self, request: &Request<'_>) -> Answer<Response> {
+    fn ask(&mut self, request: &Request<'_>, time: Duration) -> Answer<Response> {
         let mut bytes = Vec::new();
         write_message(&mut bytes, request)
             .map_err(|error| Error::Harness(format!("a job cannot be sent: {error}")))?;
         // If nobody takes it any more, there will be no answer either.
         let _ = self.requests.send(bytes);
-        Ok(self.answer())
+        Ok(self.answer(time))
     }
 
     /// What the process says next, in time.
-    fn answer(&mut self) -> std::result::Result<Response, Fault> {
-        match self.responses.recv_timeout(self.job_time) {
+    fn answer(&mut self, time: Duration) -> std::result::Result<Response, Fault> {
+        match self.responses.recv_timeout(time) {
             Ok(Ok(Some(response))) => Ok(response),
             Ok(Ok(None)) | Err(RecvTimeoutError::Disconnected) => Err(self.crash()),
-            Ok(Err(error)) if error.kind() == std::io::ErrorKind::UnexpectedEof => Err(self.crash()),
+            Ok(Err(error)) if error.kind() == ErrorKind::UnexpectedEof => Err(self.crash()),
             Ok(Err(error)) => Err(Fault::Malformed(clean(&error.to_string()))),
             Err(RecvTimeoutError::Timeout) => {
                 sandbox::end(&mut self.child);
-                Err(Fault::Timeout(self.job_time))
+                Err(Fault::Timeout(time))
             }
         }
     }
@@ -172,6 +208,22 @@ impl HostProcess {
         sandbox::end(&mut self.child);
         Fault::Crash(self.child.wait().map_or_else(|error| error.to_string(), describe))
     }
+}
+
+/// Starts a program, which may have been written a moment ago.
+///
+/// While another thread is between fork and exec, its child has all files open that this process had, and one that is
+/// open for writing cannot be run.
+fn spawn(command: &mut Command) -> std::io::Result<Child> {
+    for _ in 0..100 {
+        match command.spawn() {
+            Err(error) if error.kind() == ErrorKind::ExecutableFileBusy => {
+                std::thread::sleep(Duration::from_millis(5));
+            }
+            other => return other,
+        }
+    }
+    command.spawn()
 }
 
 /// How a process ended, and what that may mean.

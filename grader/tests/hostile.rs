@@ -8,7 +8,7 @@ use arty::integrator::{Settings, Technique};
 use arty::scene::SceneDescription;
 use grader::build::{Framework, HandInProgram, compile};
 use grader::grade::{Options, grade};
-use grader::host_process::HostProcess;
+use grader::host_process::{Fault, HostProcess};
 use grader::report::{Reason, Report, Verdict};
 use grader::sandbox::{Level, Limits, Machine};
 use grader::submission::Submission;
@@ -187,6 +187,50 @@ fn every_attack_ends_as_it_must_and_harms_nobody_else() {
     }
     assert!(complaints.is_empty(), "{}", complaints.join("\n\n"));
     assert!(!std::path::Path::new("/tmp/arty-owned").exists());
+}
+
+#[test]
+fn nobody_waits_to_the_end_for_a_hand_in_that_is_too_slow_by_far() {
+    let workspace = workspace();
+    let framework = Framework::build(&workspace).expect("the framework builds");
+    let scene = arty::scene::file::load(&workspace.scene_file("point_plane")).expect("it is there");
+    // 16 batches of one pixel, on one thread, within 3 s: each may take about 190 ms, and the first two 500 together.
+    let render = |milliseconds: u64| {
+        let source = format!(
+            "use arty::prelude::*;
+            pub struct PathTracer;
+            impl PathTracer {{ pub fn new(_: Settings) -> Self {{ Self }} }}
+            impl Integrator for PathTracer {{
+                fn radiance(&self, _: &Scene, _: Ray, sampler: &mut Sampler) -> Rgb {{
+                    std::thread::sleep(std::time::Duration::from_millis({milliseconds}));
+                    Rgb::WHITE * sampler.next_1d()
+                }}
+            }}"
+        );
+        let limits = Limits { job_time: Duration::from_secs(3), ..Limits::default() };
+        let program = compile(&framework, &source, &limits).expect("rustc runs").expect("it compiles");
+        let mut process = HostProcess::start(&program, 1).expect("the program starts");
+        let scene = process.load(&scene.description).expect("the pipe holds").expect("the scene loads");
+        let job = |seeds: std::ops::Range<u64>| RenderJob {
+            scene,
+            settings: Settings { technique: Technique::Nee, max_bounces: 1 },
+            width: 1,
+            height: 1,
+            seeds: seeds.collect(),
+            first_sample: 0,
+            samples: 1,
+            switches: Switches::default(),
+        };
+        let whole = process.render(&job(0..16)).expect("the pipe holds");
+        (whole, process.render(&job(5..6)).expect("the pipe holds"))
+    };
+    let (whole, sixth) = render(20);
+    let (whole, sixth) = (whole.expect("it is fast enough"), sixth.expect("it still is"));
+    // Rendering in two parts changes nothing.
+    assert_eq!((whole.batches.len(), &whole.batches[5]), (16, &sixth.batches[0]));
+
+    let (whole, _) = render(400);
+    assert_eq!(whole, Err(Fault::TooSlow(Duration::from_millis(500))));
 }
 
 #[test]

@@ -209,6 +209,17 @@ pub struct Rendered {
     pub cpu_seconds: f64,
 }
 
+impl Rendered {
+    /// Adds more batches of the same scene.
+    pub fn append(&mut self, more: Self) {
+        self.batches.extend(more.batches);
+        self.non_finite += more.non_finite;
+        self.negative += more.negative;
+        self.first_anomalies.extend(more.first_anomalies);
+        self.cpu_seconds += more.cpu_seconds;
+    }
+}
+
 /// A sample that no correct estimator gives, and how to make it again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AnomalousSample {

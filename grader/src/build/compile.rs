@@ -29,6 +29,27 @@ pub struct HandInProgram {
     _folder: Scratch,
 }
 
+impl HandInProgram {
+    /// A program that was compiled before, from the bytes of its executable.
+    pub(crate) fn again(executable: &[u8], limits: &Limits) -> Result<Self> {
+        let trouble = |error| Error::Harness(format!("a program cannot be copied: {error}"));
+        let folder = Scratch::new().map_err(trouble)?;
+        let file = folder.path().join(executable_name());
+        std::fs::write(&file, executable).map_err(trouble)?;
+        #[cfg(unix)]
+        std::fs::set_permissions(&file, std::os::unix::fs::PermissionsExt::from_mode(0o755))
+            .map_err(trouble)?;
+        sandbox::hand_over(folder.path())?;
+        Ok(Self {
+            executable: file,
+            compile_time: Duration::ZERO,
+            limits: *limits,
+            layers: Layers::default(),
+            _folder: folder,
+        })
+    }
+}
+
 /// Why a hand-in does not compile.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BuildFailure {

@@ -204,7 +204,7 @@ fn blame(result: &mut CheckResult, fault: Fault) {
     result.verdict = Verdict::Fail;
     result.explanation = fault.to_string();
     result.reason = match fault {
-        Fault::Timeout(_) => Reason::Timeout,
+        Fault::Timeout(_) | Fault::TooSlow(_) => Reason::Timeout,
         Fault::Panic(_) | Fault::Crash(_) => Reason::Crash,
         Fault::Malformed(_) => Reason::Violation,
     };

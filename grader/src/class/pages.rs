@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::record::{Record, Shelf};
-use crate::build::compile;
+use crate::build::HandInProgram;
 use crate::convergence::brief;
 use crate::error::{Error, Result};
 use crate::grade::{Grader, Options};
@@ -11,29 +11,26 @@ use crate::marks::Marks;
 use crate::reference::Oracle;
 use crate::report::pictures::{load, pictures, save, thumbnail};
 use crate::report::{Readers, Report, remove_pages, write_pages};
-use crate::submission::Submission;
 use crate::workspace::Workspace;
 
 /// Scenes of which pages have pictures: fewer than when one hand-in is graded, since those of a class take megabytes each.
 const SCENES: usize = 2;
 
-/// Measures error against run time of a hand-in that has just been graded, renders pictures, and keeps these and a small
+/// Measures error against run time of a program that has just been graded, renders pictures, and keeps these and a small
 /// one.
 pub(super) fn complete(
     workspace: &Workspace,
     grader: &Grader,
-    submission: &Submission,
+    program: Option<&HandInProgram>,
     report: &mut Report,
     shelf: &Shelf,
 ) -> Result<()> {
-    let Options { seed, threads, limits, .. } = grader.options();
+    let Options { seed, threads, .. } = grader.options();
     let mut shown = Vec::new();
-    if report.submission.build_failure.is_none()
-        && let Ok(hand_in) = compile(grader.framework(), &submission.source, limits)?
-    {
+    if let Some(program) = program {
         let solution = grader.oracle().map(Oracle::program).transpose()?;
-        report.convergence = Some(brief(workspace, &hand_in, solution.as_deref(), *seed)?);
-        shown = pictures(workspace, &hand_in, report, *threads, *seed, SCENES)?;
+        report.convergence = Some(brief(workspace, program, solution.as_deref(), *seed)?);
+        shown = pictures(workspace, program, report, *threads, *seed, SCENES)?;
     }
     save(&shown, &shelf.pictures())?;
     match thumbnail(&shown) {

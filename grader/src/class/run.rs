@@ -245,7 +245,7 @@ impl Shared<'_> {
         let key = self.key(source);
         let fingerprint = hand_in.outcome.is_ok().then(|| self.starter.fingerprint(source));
         let mut record = Record::new(key, &hand_in, &self.tasks, None);
-        let mut report = match &hand_in.outcome {
+        let mut graded = match &hand_in.outcome {
             Err(_) => None,
             Ok(_) if !self.options.regrade && before.is_some_and(|before| before.key == record.key) => {
                 // What came with the source may have changed, though the verdicts have not.
@@ -255,15 +255,16 @@ impl Shared<'_> {
                 }
                 return Ok(Some(Settled { record, fingerprint, lateness, receipt, graded: false }));
             }
-            Ok(submission) => Some(self.grader.grade(submission, |check| line.check(check))?),
+            Ok(submission) => Some(self.grader.grade_and_keep(submission, |check| line.check(check))?),
         };
-        if let Some(report) = &report {
+        let report = graded.as_ref().map(|(report, _)| report);
+        if let Some(report) = report {
             record = Record::new(record.key, &hand_in, &self.tasks, Some(report));
         }
         pages::clear(shelf)?;
-        shelf.save(&mut record, report.as_ref())?;
-        if let (Some(report), Ok(submission), true) = (&mut report, &hand_in.outcome, self.options.pages) {
-            match pages::complete(self.workspace, &self.grader, submission, report, shelf) {
+        shelf.save(&mut record, report)?;
+        if let (Some((report, program)), true) = (&mut graded, self.options.pages) {
+            match pages::complete(self.workspace, &self.grader, program.as_ref(), report, shelf) {
                 Ok(()) => shelf.save(&mut record, Some(report))?,
                 Err(error) => {
                     let whose = intake::harmless(&member.key);
@@ -271,7 +272,7 @@ impl Shared<'_> {
                 }
             }
         }
-        Ok(Some(Settled { record, fingerprint, lateness, receipt, graded: report.is_some() }))
+        Ok(Some(Settled { record, fingerprint, lateness, receipt, graded: graded.is_some() }))
     }
 
     /// The hand-in that counts, of those that a member sent.

@@ -2,37 +2,34 @@
 
 use std::path::Path;
 
-use crate::build::compile;
+use crate::build::HandInProgram;
 use crate::convergence::{brief, print_sentences};
 use crate::error::Result;
 use crate::grade::{Grader, Options};
 use crate::reference::Oracle;
 use crate::report::pictures::{MOST, pictures, save};
 use crate::report::{Picture, Readers, Report, pages_beside, pictures_beside, write_pages};
-use crate::submission::Submission;
 use crate::workspace::Workspace;
 
-/// Completes a report, saves it again, and writes it as pages beside it. The points do not change.
+/// Completes the report on a program, saves it again, and writes it as pages beside it. The points do not change.
 pub(super) fn complete(
     workspace: &Workspace,
     grader: &Grader,
-    submission: &Submission,
+    program: Option<&HandInProgram>,
     report: &mut Report,
     file: &Path,
 ) -> Result<()> {
     let mut shown = Vec::new();
-    if report.submission.build_failure.is_none() {
+    if let Some(program) = program {
         eprintln!("measuring error against run time, for no points (--no-report leaves it out) …");
-        let Options { seed, threads, limits, .. } = grader.options();
-        if let Ok(hand_in) = compile(grader.framework(), &submission.source, limits)? {
-            let solution = grader.oracle().map(Oracle::program).transpose()?;
-            let convergence = brief(workspace, &hand_in, solution.as_deref(), *seed)?;
-            println!("\nError against run time, for no points");
-            print_sentences(&convergence);
-            report.convergence = Some(convergence);
-            shown = pictures(workspace, &hand_in, report, *threads, *seed, MOST)?;
-            report.images = shown.iter().flat_map(Picture::errors).collect();
-        }
+        let Options { seed, threads, .. } = grader.options();
+        let solution = grader.oracle().map(Oracle::program).transpose()?;
+        let convergence = brief(workspace, program, solution.as_deref(), *seed)?;
+        println!("\nError against run time, for no points");
+        print_sentences(&convergence);
+        report.convergence = Some(convergence);
+        shown = pictures(workspace, program, report, *threads, *seed, MOST)?;
+        report.images = shown.iter().flat_map(Picture::errors).collect();
     }
     report.save(file)?;
     save(&shown, &pictures_beside(file))?;

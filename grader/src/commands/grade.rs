@@ -15,7 +15,6 @@ use crate::grade::{Grader, Options};
 use crate::intake::{self, Finding, HandIn, Refusal};
 use crate::marks::Marks;
 use crate::report::{Progress, print_profile, print_sum, print_summary, remove_pages};
-use crate::submission::Submission;
 use crate::workspace::Workspace;
 
 /// Grade one hand-in.
@@ -97,15 +96,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     progress.begin("making the framework ready");
     let grader = Grader::new(&workspace, &options)?;
     progress.expect(grader.planned());
-    let (submission, mut report) = match outcome {
-        Ok(submission) => {
-            let report = grader.grade(&submission, |check| progress.ended(check))?;
-            (submission, report)
-        }
-        Err(refusal) => {
-            let report = grader.refuse(&path, &refusal)?;
-            (Submission { path, source: String::new() }, report)
-        }
+    let (mut report, program) = match outcome {
+        Ok(submission) => grader.grade_and_keep(&submission, |check| progress.ended(check))?,
+        Err(refusal) => (grader.refuse(&path, &refusal)?, None),
     };
     progress.finish();
     report.submission.notes = notes.iter().map(Finding::from).collect();
@@ -125,7 +118,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     }
     export::after_grade(&report, &arguments.export, &arguments.out)?;
     if !arguments.no_report && arguments.only.is_empty() {
-        let completed = full_report::complete(&workspace, &grader, &submission, &mut report, &file);
+        let completed = full_report::complete(&workspace, &grader, program.as_ref(), &mut report, &file);
         if let Err(error) = completed {
             // The points stand and are saved: whoever waits for them must not be told that grading failed.
             eprintln!("warning: the report is not complete: {error}");

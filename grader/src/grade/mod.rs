@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Instant;
 
-use crate::build::{BuildFailure, Framework, compile};
+use crate::build::{BuildFailure, Framework, HandInProgram, compile};
 use crate::checks::{Bench, JudgedScene};
 use crate::diagnosis::Catalogue;
 use crate::error::Result;
@@ -164,6 +164,18 @@ impl Grader {
         submission: &Submission,
         on_check: impl FnMut(&CheckResult) + Send,
     ) -> Result<Report> {
+        Ok(self.judge(submission, None, on_check)?.0)
+    }
+
+    /// The same, and the program that was graded, unless it does not compile.
+    ///
+    /// # Errors
+    /// What is not the hand-in's doing.
+    pub fn grade_and_keep(
+        &self,
+        submission: &Submission,
+        on_check: impl FnMut(&CheckResult) + Send,
+    ) -> Result<(Report, Option<HandInProgram>)> {
         self.judge(submission, None, on_check)
     }
 
@@ -173,7 +185,7 @@ impl Grader {
     /// None that a hand-in could cause.
     pub fn refuse(&self, path: &Path, refusal: &intake::Refusal) -> Result<Report> {
         let nothing = Submission { path: path.to_owned(), source: String::new() };
-        self.judge(&nothing, Some(refusal), |_| {})
+        Ok(self.judge(&nothing, Some(refusal), |_| {})?.0)
     }
 
     fn judge(
@@ -181,7 +193,7 @@ impl Grader {
         submission: &Submission,
         refusal: Option<&intake::Refusal>,
         on_check: impl FnMut(&CheckResult) + Send,
-    ) -> Result<Report> {
+    ) -> Result<(Report, Option<HandInProgram>)> {
         let start = Instant::now();
         let Self {
             options, rubric, scenes, framework, framework_time, oracle, workspace, provenance, ..
@@ -227,7 +239,10 @@ impl Grader {
             checks = run::run(&bench, &meaningful, on_check)?;
         }
         let run_time = run_start.elapsed().as_secs_f64();
-        let build_failure = built.err();
+        let (program, build_failure) = match built {
+            Ok(program) => (Some(program), None),
+            Err(failure) => (None, Some(failure)),
+        };
         let nothing_ran = build_failure.as_ref().map(|_| {
             if refusal.is_some() {
                 "there is nothing that can be graded"
@@ -287,6 +302,6 @@ impl Grader {
             images: Vec::new(),
         };
         report.diagnosis = self.catalogue.diagnose(&report, &submission.source);
-        Ok(report)
+        Ok((report, program))
     }
 }

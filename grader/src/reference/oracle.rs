@@ -14,9 +14,9 @@ use crate::statistics::bias::Expected;
 use crate::submission::Submission;
 use crate::workspace::Workspace;
 
-/// The solution of this checkout. It is compiled only once it is needed.
+/// The solution of this checkout. It is compiled only once it is needed, and not again while it is the same.
 ///
-/// Its answers are kept beside the framework's libraries, under the hash of all that they depend on.
+/// Program and answers are kept beside the framework's libraries, under the hash of all that they depend on.
 #[derive(Debug)]
 pub struct Oracle {
     submission: Submission,
@@ -51,7 +51,7 @@ impl Oracle {
         }))
     }
 
-    /// The solution as a program, built like any hand-in.
+    /// The solution as a program, built like any hand-in, now or earlier.
     ///
     /// # Errors
     /// If it does not compile.
@@ -60,9 +60,20 @@ impl Oracle {
         if let Some(program) = &*program {
             return Ok(Arc::clone(program));
         }
-        let Submission { path, source } = &self.submission;
-        let compiled = compile(&self.framework, source, &Limits::default())?
-            .map_err(|failure| Error::file(path, format!("does not compile:\n{}", failure.messages)))?;
+        let (limits, file) = (Limits::default(), self.folder.join(format!("{}.program", self.hash)));
+        let compiled = match read(&file) {
+            Some(executable) => HandInProgram::again(&executable, &limits)?,
+            None => {
+                let Submission { path, source } = &self.submission;
+                let compiled = compile(&self.framework, source, &limits)?.map_err(|failure| {
+                    Error::file(path, format!("does not compile:\n{}", failure.messages))
+                })?;
+                let executable = std::fs::read(&compiled.executable)
+                    .map_err(|error| Error::file(&compiled.executable, error))?;
+                self.write(&file, &executable)?;
+                compiled
+            }
+        };
         Ok(Arc::clone(program.insert(Arc::new(compiled))))
     }
 
@@ -80,27 +91,29 @@ impl Oracle {
     ) -> Result<Expected> {
         let question = format!("{} {} {settings:?} {samples} {seed}", self.hash, scene.hash());
         let file = self.folder.join(blake3::hash(question.as_bytes()).to_hex().as_str());
-        if let Some(answer) = read(&file) {
+        if let Some(answer) = read(&file).and_then(|bytes| postcard::from_bytes(&bytes).ok()) {
             return Ok(answer);
         }
         let answer = live(&*self.program()?, scene, settings, samples, seed, threads)?;
-        let trouble = |error: &dyn std::fmt::Display| Error::file(&file, error);
-        let bytes = postcard::to_stdvec(&answer).map_err(|error| trouble(&error))?;
-        std::fs::create_dir_all(&self.folder).map_err(|error| trouble(&error))?;
-        arty::image::write_aside(&file, |writer| {
-            std::io::Write::write_all(writer, blake3::hash(&bytes).as_bytes())?;
-            std::io::Write::write_all(writer, &bytes)
-        })?;
+        let bytes = postcard::to_stdvec(&answer).map_err(|error| Error::file(&file, error))?;
+        self.write(&file, &bytes)?;
         Ok(answer)
+    }
+
+    /// Writes something down for [`read`].
+    fn write(&self, file: &Path, bytes: &[u8]) -> Result<()> {
+        std::fs::create_dir_all(&self.folder).map_err(|error| Error::file(file, error))?;
+        Ok(arty::image::write_aside(file, |writer| {
+            std::io::Write::write_all(writer, blake3::hash(bytes).as_bytes())?;
+            std::io::Write::write_all(writer, bytes)
+        })?)
     }
 }
 
-/// An answer that was written down; `None` if there is none that is whole.
-fn read(file: &Path) -> Option<Expected> {
-    let bytes = std::fs::read(file).ok()?;
-    let (hash, answer) = bytes.split_at_checked(blake3::OUT_LEN)?;
-    if blake3::hash(answer).as_bytes() != hash {
-        return None;
-    }
-    postcard::from_bytes(answer).ok()
+/// What was written down; `None` if it is not there, or not whole.
+fn read(file: &Path) -> Option<Vec<u8>> {
+    let mut bytes = std::fs::read(file).ok()?;
+    let (hash, rest) = bytes.split_at_checked(blake3::OUT_LEN)?;
+    let is_whole = blake3::hash(rest).as_bytes() == hash;
+    is_whole.then(|| bytes.split_off(blake3::OUT_LEN))
 }
