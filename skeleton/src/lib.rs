@@ -31,6 +31,7 @@ pub mod camera;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod film;
+mod firsts;
 #[cfg(feature = "files")]
 pub mod image;
 pub mod integrator;

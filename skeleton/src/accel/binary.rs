@@ -1,12 +1,13 @@
 //! A binary tree over triangles, one triangle a leaf.
 
-use foldhash::{HashMap, HashMapExt};
 use glam::Vec3;
 use obvhs::Boundable;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
+
+use crate::firsts::firsts;
 
 /// Up to this depth a tree is worth improving. Trees over meshes have about half of it.
 const DEPTH_WORTH_IMPROVING: usize = 64;
@@ -70,18 +71,18 @@ impl BinaryTree {
     ///
     /// Triangles with the same box are one to obvhs, which else makes a level for each of them.
     pub(super) fn cluster(triangles: &[[Vec3; 3]]) -> Self {
-        let mut group_of_box = HashMap::with_capacity(triangles.len());
+        let same_box = firsts(triangles.len(), |triangle| {
+            bounds(&triangles[triangle]).map(|corner| corner.to_array().map(f32::to_bits))
+        });
         let mut boxes = Vec::with_capacity(triangles.len());
-        let mut groups = Vec::with_capacity(triangles.len());
-        for triangle in triangles {
-            let bounds = bounds(triangle);
-            let next = boxes.len();
-            let group =
-                *group_of_box.entry(bounds.map(|corner| corner.to_array().map(f32::to_bits))).or_insert(next);
-            if group == next {
-                boxes.push(Bounds(bounds));
+        let mut groups: Vec<usize> = Vec::with_capacity(triangles.len());
+        for (index, (triangle, &first)) in triangles.iter().zip(&same_box).enumerate() {
+            if first as usize == index {
+                groups.push(boxes.len());
+                boxes.push(Bounds(bounds(triangle)));
+            } else {
+                groups.push(groups[first as usize]);
             }
-            groups.push(group);
         }
         let mut order: Vec<u32> = (0..triangles.len() as u32).collect();
         order.sort_by_key(|triangle| groups[*triangle as usize]);

@@ -1,11 +1,10 @@
 //! Which triangles are worth keeping.
 
-use std::collections::hash_map::Entry;
-
-use foldhash::{HashMap, HashMapExt};
 use glam::{DVec3, Vec3};
+use rayon::prelude::*;
 
 use super::exact;
+use crate::firsts::firsts;
 
 /// What is left of a list of triangles.
 pub(super) struct Cleaned {
@@ -26,25 +25,29 @@ pub(super) struct Cleaned {
 pub(super) fn clean(all: &[[Vec3; 3]]) -> Cleaned {
     let mut cleaned =
         Cleaned { triangles: Vec::new(), primitives: Vec::new(), degenerate: 0, duplicates: Vec::new() };
-    let mut seen = HashMap::with_capacity(all.len());
-    for (primitive, corners) in all.iter().enumerate() {
-        // Adding 0 makes −0 the same as 0.
-        let triangle = corners.map(|corner| corner + 0.0);
-        if !corners.iter().all(|corner| corner.is_finite()) || exact::normal(&triangle) == DVec3::ZERO {
-            cleaned.degenerate += 1;
-            continue;
-        }
-        let mut key = triangle.map(|corner| corner.to_array().map(f32::to_bits));
+    // Adding 0 makes −0 the same as 0.
+    let prepared = |corners: &[Vec3; 3]| corners.map(|corner| corner + 0.0);
+    let can_be_hit = |(primitive, corners): (usize, &[Vec3; 3])| {
+        let finite = corners.iter().all(|corner| corner.is_finite());
+        (finite && exact::normal(&prepared(corners)) != DVec3::ZERO).then_some(primitive as u32)
+    };
+    let kept: Vec<u32> = all.par_iter().with_min_len(LEAST).enumerate().filter_map(can_be_hit).collect();
+    cleaned.degenerate = all.len() - kept.len();
+    let firsts = firsts(kept.len(), |index| {
+        let mut key = prepared(&all[kept[index] as usize]).map(|corner| corner.to_array().map(f32::to_bits));
         key.sort_unstable();
-        match seen.entry(key) {
-            Entry::Occupied(first) => {
-                cleaned.duplicates.push([primitive as u32, *first.get()]);
-                continue;
-            }
-            Entry::Vacant(entry) => entry.insert(primitive as u32),
-        };
-        cleaned.triangles.push(triangle);
-        cleaned.primitives.push(primitive as u32);
+        key
+    });
+    for (index, (&primitive, &first)) in kept.iter().zip(&firsts).enumerate() {
+        if first as usize == index {
+            cleaned.triangles.push(prepared(&all[primitive as usize]));
+            cleaned.primitives.push(primitive);
+        } else {
+            cleaned.duplicates.push([primitive, kept[first as usize]]);
+        }
     }
     cleaned
 }
+
+/// Fewer triangles than this are not worth another thread.
+const LEAST: usize = 1 << 12;

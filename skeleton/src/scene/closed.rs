@@ -1,9 +1,9 @@
 //! Is the camera enclosed?
 
-use foldhash::{HashMap, HashMapExt};
 use glam::DVec3;
 use rayon::slice::ParallelSliceMut;
 
+use crate::firsts::firsts;
 use crate::math::Vec3;
 
 /// True if `eye` lies inside a surface without a hole.
@@ -69,16 +69,12 @@ fn crosses([a, b, c]: [DVec3; 3], direction: DVec3) -> bool {
 
 /// Each triangle's edges, by the numbers of their ends, with the triangle; equal ones next to each other.
 fn edges(triangles: &[[Vec3; 3]]) -> Vec<([u32; 2], u32)> {
-    let mut numbers: HashMap<[u32; 3], u32> = HashMap::with_capacity(triangles.len());
-    let mut edges = Vec::with_capacity(3 * triangles.len());
-    for (index, vertices) in triangles.iter().enumerate() {
-        let corners = vertices.map(|vertex| {
-            let next = numbers.len() as u32;
-            // Adding zero makes -0 into 0.
-            *numbers.entry((vertex + Vec3::ZERO).to_array().map(f32::to_bits)).or_insert(next)
-        });
-        for (a, b) in [(0, 1), (1, 2), (2, 0)] {
-            let mut edge = [corners[a], corners[b]];
+    let corners = triangles.as_flattened();
+    // Adding zero makes -0 into 0.
+    let numbers = firsts(corners.len(), |corner| (corners[corner] + Vec3::ZERO).to_array().map(f32::to_bits));
+    let mut edges = Vec::with_capacity(numbers.len());
+    for (index, &[a, b, c]) in numbers.as_chunks().0.iter().enumerate() {
+        for mut edge in [[a, b], [b, c], [c, a]] {
             edge.sort_unstable();
             edges.push((edge, index as u32));
         }
