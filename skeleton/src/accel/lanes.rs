@@ -26,8 +26,18 @@ pub(super) trait Lanes: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Out
     fn le(self, other: Self) -> u32;
     /// A bit for each lane in which `self < other`, that of lane 0 the lowest; 0 where one is not a number.
     fn lt(self, other: Self) -> u32;
+    /// Has memory begin to send what is at an address, if there is anything.
+    fn fetch<T>(address: *const T);
     /// A bit for each index that is the given one, that of the first the lowest.
     fn equal(indices: &Indices, index: u32) -> u32;
+}
+
+/// Takes the lowest bit off, and gives the lane that it stands for.
+#[inline(always)]
+pub(super) fn take_lowest(bits: &mut u32) -> usize {
+    let lane = bits.trailing_zeros() as usize;
+    *bits &= *bits - 1;
+    lane
 }
 
 /// Eight indices in memory.
@@ -126,6 +136,8 @@ impl Lanes for Portable {
         self.compare(other, |a, b| a < b)
     }
     #[inline(always)]
+    fn fetch<T>(_: *const T) {}
+    #[inline(always)]
     fn equal(indices: &Indices, index: u32) -> u32 {
         (0..8).fold(0, |bits, lane| bits | u32::from(indices.0[lane] == index) << lane)
     }
@@ -211,6 +223,13 @@ mod avx {
         fn lt(self, other: Self) -> u32 {
             // SAFETY: as above.
             (unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0)) }) as u32
+        }
+        #[inline(always)]
+        fn fetch<T>(address: *const T) {
+            for line in 0..size_of::<T>() / 64 {
+                // SAFETY: every machine with AVX2 can; it changes nothing, and an address that cannot be read is no fault.
+                unsafe { _mm_prefetch::<_MM_HINT_T0>(address.cast::<i8>().wrapping_add(64 * line)) };
+            }
         }
         #[inline(always)]
         fn equal(indices: &Indices, index: u32) -> u32 {

@@ -12,7 +12,7 @@
 use glam::Vec3;
 
 use super::exact::{self, Plane};
-use super::lanes::{Indices, Lanes, Row};
+use super::lanes::{Indices, Lanes, Row, take_lowest};
 use super::ray::PreparedRay;
 
 /// Up to eight triangles, as a structure of arrays. Unused lanes are not numbers and so never hit.
@@ -110,8 +110,7 @@ impl Packet {
         let (first, second) = (crossing.weights[0].store(), crossing.weights[1].store());
         let mut lanes = hit | unclear;
         while lanes != 0 {
-            let lane = lanes.trailing_zeros() as usize;
-            lanes &= lanes - 1;
+            let lane = take_lowest(&mut lanes);
             let t = if unclear >> lane & 1 == 0 {
                 t.0[lane]
             } else {
@@ -157,8 +156,7 @@ impl Packet {
         }
         let mut lanes = possible;
         while lanes != 0 {
-            let lane = lanes.trailing_zeros() as usize;
-            lanes &= lanes - 1;
+            let lane = take_lowest(&mut lanes);
             if self.separates(planes, lane, ray, target) {
                 return true;
             }
@@ -175,12 +173,13 @@ impl Packet {
         let w = b[0] * a[1] - b[1] * a[0];
         let zero = V::splat(0.0);
         let weight_sum = u + v + w;
-        let inside = (zero.le(u.min(v).min(w)) | u.max(v).max(w).le(zero))
-            & zero.lt(weight_sum.abs())
-            & !V::equal(&self.primitives, ray.leaves);
+        // None is negative, or none is positive.
+        let inside =
+            zero.le(u.min(v).min(w).max(zero - u.max(v).max(w))) & !V::equal(&self.primitives, ray.leaves);
         if inside == 0 {
             return None;
         }
+        let inside = inside & zero.lt(weight_sum.abs());
         let (x, y, z) = (largest(a[0], b[0], c[0]), largest(a[1], b[1], c[1]), largest(a[2], b[2], c[2]));
         Some(Crossing {
             inside,

@@ -4,16 +4,16 @@ use std::mem::MaybeUninit;
 
 use glam::Vec3;
 
-use super::lanes::{Lanes, Row};
+use super::lanes::{Lanes, Row, take_lowest};
 use super::packet::Nearest;
 use super::ray::{PreparedRay, Slabs};
-use super::tree::{Child, Kind, Node, Tree};
+use super::tree::{Node, Tree};
 
-/// Room for children that wait for their turn. A tree made by halving needs no more than seven for each of its
+/// Room for nodes that wait for their turn. A tree made by halving needs no more than seven for each of its
 /// levels, of which there are at most 32.
 pub(super) const STACK_SIZE: usize = 7 * 32 + 1;
 
-/// A child and the distance at which its box begins, which is not negative.
+/// A node's place and the distance at which its box begins, which is not negative.
 ///
 /// The distance is in the upper half: bits of numbers that are not negative are ordered as the numbers are.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -21,8 +21,8 @@ struct Entry(u64);
 
 impl Entry {
     #[inline(always)]
-    fn new(distance: f32, child: Child) -> Self {
-        Self(u64::from(distance.to_bits()) << 32 | u64::from(child.0))
+    fn new(distance: f32, node: u32) -> Self {
+        Self(u64::from(distance.to_bits()) << 32 | u64::from(node))
     }
 
     #[inline(always)]
@@ -31,8 +31,8 @@ impl Entry {
     }
 
     #[inline(always)]
-    fn child(self) -> Child {
-        Child(self.0 as u32)
+    fn node(self) -> usize {
+        self.0 as u32 as usize
     }
 }
 
@@ -43,7 +43,7 @@ type Room = [MaybeUninit<Entry>; STACK_SIZE];
 
 const ROOM: Room = [const { MaybeUninit::uninit() }; STACK_SIZE];
 
-/// Children that wait for their turn.
+/// Nodes that wait for their turn.
 ///
 /// It borrows its room, so that its length is not part of an array that is written to at varying places: then it stays
 /// in a register.
@@ -111,16 +111,21 @@ impl Node {
         (near.le(far), near)
     }
 
-    /// Takes the lowest bit off, and gives the child that it stands for.
+    /// Takes the lowest bit off, and gives the node that it stands for.
     #[inline(always)]
     fn entry(&self, distances: &Row, bits: &mut u32) -> Entry {
-        let lane = bits.trailing_zeros() as usize;
-        *bits &= *bits - 1;
+        let lane = take_lowest(bits);
         Entry::new(distances.0[lane], self.children[lane])
     }
 }
 
 impl Tree {
+    /// Has memory begin to send a node that waits for its turn.
+    #[inline(always)]
+    fn fetch<V: Lanes>(&self, entry: Entry) {
+        V::fetch(self.nodes.as_ptr().wrapping_add(entry.node()));
+    }
+
     /// Replaces `nearest` by the nearest hit.
     #[inline(always)]
     pub(super) fn intersect<V: Lanes>(&self, ray: &PreparedRay, nearest: &mut Nearest) {
@@ -133,34 +138,39 @@ impl Tree {
         let slabs = Slabs::new(ray, self.bounds);
         let mut room = ROOM;
         let mut stack = Stack::new(&mut room);
-        let mut next = Child::ROOT;
+        let mut next = 0;
         loop {
-            match next.kind() {
-                Kind::Packet(packet) => {
-                    self.packets[packet].intersect::<V>(&self.planes[packet], ray, nearest)
+            let node = &self.nodes[next];
+            let (met, distances) = node.meet::<V>(&slabs, nearest.t);
+            let (mut packets, mut nodes) = (met & node.packets, met & !node.packets);
+            let distances = distances.store();
+            // Packets at once, in any order: which of a node's children come next is hard to foretell, and each time
+            // that the processor thinks of a packet where there is a node costs more than a packet too many.
+            while packets != 0 {
+                let lane = take_lowest(&mut packets);
+                if distances.0[lane] <= nearest.t {
+                    let packet = node.children[lane] as usize;
+                    self.packets[packet].intersect::<V>(&self.planes[packet], ray, nearest);
                 }
-                Kind::Node(node) => {
-                    let node = &self.nodes[node];
-                    let (mut met, distances) = node.meet::<V>(&slabs, nearest.t);
-                    if met != 0 {
-                        // The nearest next, the others later in order.
-                        let distances = distances.store();
-                        let mut first = node.entry(&distances, &mut met);
-                        let start = stack.length;
-                        while met != 0 {
-                            let entry = node.entry(&distances, &mut met);
-                            stack.push_sorted(start, first.max(entry));
-                            first = first.min(entry);
-                        }
-                        next = first.child();
-                        continue;
-                    }
+            }
+            if nodes != 0 {
+                // The nearest next, the others later in order.
+                let mut first = node.entry(&distances, &mut nodes);
+                let start = stack.length;
+                while nodes != 0 {
+                    let entry = node.entry(&distances, &mut nodes);
+                    let later = first.max(entry);
+                    self.fetch::<V>(later);
+                    stack.push_sorted(start, later);
+                    first = first.min(entry);
                 }
+                next = first.node();
+                continue;
             }
             next = loop {
                 match stack.pop() {
                     None => return,
-                    Some(entry) if entry.distance() <= nearest.t => break entry.child(),
+                    Some(entry) if entry.distance() <= nearest.t => break entry.node(),
                     Some(_) => {}
                 }
             };
@@ -180,34 +190,34 @@ impl Tree {
         let slabs = Slabs::new(ray, self.bounds);
         let mut room = ROOM;
         let mut stack = Stack::new(&mut room);
-        let mut next = Child::ROOT;
+        let mut next = 0;
         loop {
-            match next.kind() {
-                Kind::Packet(packet) => {
-                    if self.packets[packet].occludes::<V>(&self.planes[packet], ray, target, reach) {
-                        return true;
-                    }
+            let node = &self.nodes[next];
+            let (met, distances) = node.meet::<V>(&slabs, 1.0);
+            let (mut packets, mut nodes) = (met & node.packets, met & !node.packets);
+            while packets != 0 {
+                let packet = node.children[take_lowest(&mut packets)] as usize;
+                if self.packets[packet].occludes::<V>(&self.planes[packet], ray, target, reach) {
+                    return true;
                 }
-                Kind::Node(node) => {
-                    let node = &self.nodes[node];
-                    let (mut met, distances) = node.meet::<V>(&slabs, 1.0);
-                    if met != 0 {
-                        // The nearest next, the others in any order: the first blocker found ends it all.
-                        let distances = distances.store();
-                        let mut first = node.entry(&distances, &mut met);
-                        while met != 0 {
-                            let entry = node.entry(&distances, &mut met);
-                            stack.push(first.max(entry));
-                            first = first.min(entry);
-                        }
-                        next = first.child();
-                        continue;
-                    }
+            }
+            if nodes != 0 {
+                // The nearest next, the others in any order: the first blocker found ends it all.
+                let distances = distances.store();
+                let mut first = node.entry(&distances, &mut nodes);
+                while nodes != 0 {
+                    let entry = node.entry(&distances, &mut nodes);
+                    let later = first.max(entry);
+                    self.fetch::<V>(later);
+                    stack.push(later);
+                    first = first.min(entry);
                 }
+                next = first.node();
+                continue;
             }
             match stack.pop() {
                 None => return false,
-                Some(entry) => next = entry.child(),
+                Some(entry) => next = entry.node(),
             }
         }
     }

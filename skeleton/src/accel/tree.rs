@@ -25,9 +25,11 @@ const SCANNED_PACKETS: usize = 5;
 pub(super) struct Node {
     /// The planes that bound the boxes: least x, y, z, then greatest x, y, z. Unused lanes have empty boxes.
     pub(super) planes: [Row; 6],
-    /// The children.
-    pub(super) children: [Child; 8],
-    unused: [u32; 8],
+    /// Where the children are among the tree's packets or, if they are nodes, among its nodes.
+    pub(super) children: [u32; 8],
+    /// A bit for each child that is a packet.
+    pub(super) packets: u32,
+    unused: [u32; 7],
 }
 
 const _: () = assert!(size_of::<Node>() == 256, "a node is four cache lines");
@@ -38,37 +40,10 @@ impl Node {
             let (least, greatest) = (Row([f32::INFINITY; 8]), Row([f32::NEG_INFINITY; 8]));
             [least, least, least, greatest, greatest, greatest]
         },
-        children: [Child(0); 8],
-        unused: [0; 8],
+        children: [0; 8],
+        packets: 0,
+        unused: [0; 7],
     };
-}
-
-/// The index of a node or of a packet.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Child(pub(super) u32);
-
-/// What a [`Child`] is.
-pub(super) enum Kind {
-    /// The index of a node.
-    Node(usize),
-    /// The index of a packet.
-    Packet(usize),
-}
-
-impl Child {
-    /// The root of a tree that has nodes.
-    pub(super) const ROOT: Self = Self(0);
-    const PACKET: u32 = 1 << 31;
-
-    /// What it is.
-    #[inline(always)]
-    pub(super) fn kind(self) -> Kind {
-        if self.0 & Self::PACKET == 0 {
-            Kind::Node(self.0 as usize)
-        } else {
-            Kind::Packet((self.0 & !Self::PACKET) as usize)
-        }
-    }
 }
 
 /// Nodes and packets.
@@ -84,7 +59,7 @@ pub(super) struct Tree {
     pub(super) planes: Vec<Planes>,
     /// Nodes on the longest way from the root to a packet.
     pub(super) depth: usize,
-    /// The most children that can be waiting for their turn at one time in a depth-first traversal.
+    /// The most nodes that can be waiting for their turn at one time in a depth-first traversal.
     pub(super) waiting: usize,
 }
 
@@ -177,21 +152,23 @@ impl Builder<'_> {
         let mut open = vec![(0, 0, 1, 0)];
         while let Some((index, binary_index, depth, waiting)) = open.pop() {
             let children = self.children(binary_index);
-            let waiting = waiting + children.len();
+            let waiting = waiting + children.iter().filter(|child| !self.plans[**child].packet).count();
             self.tree.depth = self.tree.depth.max(depth);
             self.tree.waiting = self.tree.waiting.max(waiting);
             for (lane, child) in children.into_iter().enumerate() {
-                let reference = if self.plans[child].packet {
-                    Child(self.add_packet(&self.leaves(child)) | Child::PACKET)
+                let is_packet = self.plans[child].packet;
+                let place = if is_packet {
+                    self.add_packet(&self.leaves(child))
                 } else {
                     self.tree.nodes.push(Node::EMPTY);
                     let added = self.tree.nodes.len() - 1;
                     open.push((added, child, depth + 1, waiting - 1));
-                    Child(added as u32)
+                    added as u32
                 };
                 let BinaryNode { least, greatest, .. } = self.binary.nodes[child];
                 let node = &mut self.tree.nodes[index];
-                node.children[lane] = reference;
+                node.children[lane] = place;
+                node.packets |= u32::from(is_packet) << lane;
                 for axis in 0..3 {
                     node.planes[axis].0[lane] = least[axis];
                     node.planes[3 + axis].0[lane] = greatest[axis];
