@@ -6,6 +6,7 @@ use std::fmt::Write;
 use super::plot::{MADE_FOR, times};
 use super::{Counts, Line, Test};
 use crate::mutants::Record;
+use crate::report::Verdict;
 
 /// False alarms of the statistics alone and of whole grades, power, and what simpler tests need, as tables. `wrong` names
 /// the wrong variants.
@@ -24,8 +25,10 @@ pub fn table(
     false_alarms(&mut text, &ours, checks);
     power(&mut text, &ours, checks);
     whole_grades(&mut text, grades);
-    cost_of_bias(&mut text, &of_right, checks);
-    cost_of_mistakes(&mut text, lines, wrong);
+    if lines.iter().any(|line| line.test != Test::Sequential) {
+        cost_of_bias(&mut text, &of_right, checks);
+        cost_of_mistakes(&mut text, lines, wrong);
+    }
     text
 }
 
@@ -97,15 +100,19 @@ fn power(text: &mut String, lines: &[&Line], checks: &[String]) {
 }
 
 fn whole_grades(text: &mut String, grades: &BTreeMap<String, Vec<&Record>>) {
+    let fails = |record: &Record| record.checks.values().any(|&verdict| verdict == Verdict::Fail);
     let full = |record: &Record| record.tasks.values().all(|[earned, worth]| earned >= worth);
-    let count = |records: &[&Record]| records.iter().filter(|record| !full(record)).count();
-    let all: usize = grades.values().map(Vec::len).sum();
-    let failed: usize = grades.values().map(|records| count(records)).sum();
+    let failed = |records: &[&Record]| records.iter().filter(|record| fails(record)).count();
+    let undecided = |records: &[&Record]| records.iter().filter(|it| !fails(it) && !full(it)).count();
+    let all: Vec<&Record> = grades.values().flatten().copied().collect();
     add(
         text,
         format_args!(
-            "\n## Whole grades: {failed} of {all} lose points\n\n| correct variant | grades | lose points | seconds each \
-         |\n|---|---:|---:|---:|"
+            "\n## Whole grades: {} of {} fail a check, {} lose points to one that stays undecided\n\n| correct variant | \
+             grades | fail a check | leave one undecided | seconds each |\n|---|---:|---:|---:|---:|",
+            failed(&all),
+            all.len(),
+            undecided(&all)
         ),
     );
     for (variant, records) in grades {
@@ -113,9 +120,10 @@ fn whole_grades(text: &mut String, grades: &BTreeMap<String, Vec<&Record>>) {
         add(
             text,
             format_args!(
-                "| `{variant}` | {} | {} | {:.1} |",
+                "| `{variant}` | {} | {} | {} | {:.1} |",
                 records.len(),
-                count(records),
+                failed(records),
+                undecided(records),
                 seconds / records.len().max(1) as f64
             ),
         );
