@@ -207,10 +207,10 @@ impl Tree {
                 let mut first = node.entry(&distances, &mut nodes);
                 while nodes != 0 {
                     let entry = node.entry(&distances, &mut nodes);
-                    let later = first.max(entry);
+                    let later = first.min(entry);
                     self.fetch::<V>(later);
                     stack.push(later);
-                    first = first.min(entry);
+                    first = first.max(entry);
                 }
                 next = first.node();
                 continue;
