@@ -14,29 +14,41 @@ pub(super) struct Plane {
 impl Plane {
     /// Convolves each row with one kernel and then each column with another; both have odd lengths.
     fn convolve(&self, horizontal: &[f64], vertical: &[f64]) -> Self {
-        let rows = self.pass(horizontal, |x, y, shift| (shifted(x, shift, self.width), y));
-        rows.pass(vertical, |x, y, shift| (x, shifted(y, shift, self.height)))
+        self.across_rows(horizontal).along_columns(vertical)
     }
 
-    /// One pass; `place` says where the value lies that is a number of pixels away.
-    fn pass(&self, kernel: &[f64], place: impl Fn(usize, usize, isize) -> (usize, usize)) -> Self {
+    /// Convolves each row.
+    fn across_rows(&self, kernel: &[f64]) -> Self {
+        let radius = kernel.len() / 2;
+        let mut values = vec![0.0; self.values.len()];
+        for (row, sums) in self.values.chunks(self.width).zip(values.chunks_mut(self.width)) {
+            let mut widened = vec![row[0]; radius];
+            widened.extend_from_slice(row);
+            widened.resize(self.width + 2 * radius, row[self.width - 1]);
+            for (shift, &weight) in kernel.iter().enumerate() {
+                add(sums, weight, &widened[shift..]);
+            }
+        }
+        Self { values, ..*self }
+    }
+
+    /// Convolves each column, all of them at once: rows are added up.
+    fn along_columns(&self, kernel: &[f64]) -> Self {
         let radius = (kernel.len() / 2) as isize;
-        let value = |x: usize, y: usize| -> f64 {
-            let taps = kernel.iter().zip(-radius..=radius);
-            taps.map(|(weight, shift)| {
-                let (x, y) = place(x, y, shift);
-                weight * self.values[y * self.width + x]
-            })
-            .sum()
-        };
-        let values = (0..self.height).flat_map(|y| (0..self.width).map(move |x| (x, y)));
-        let values = values.map(|(x, y)| value(x, y)).collect();
-        Self { width: self.width, height: self.height, values }
+        let mut values = vec![0.0; self.values.len()];
+        for (y, sums) in values.chunks_mut(self.width).enumerate() {
+            for (shift, &weight) in (-radius..=radius).zip(kernel) {
+                let from = y.saturating_add_signed(shift).min(self.height - 1);
+                add(sums, weight, &self.values[from * self.width..]);
+            }
+        }
+        Self { values, ..*self }
     }
 }
 
-fn shifted(position: usize, shift: isize, size: usize) -> usize {
-    position.saturating_add_signed(shift).min(size - 1)
+/// Adds `weight` times the values that `others` begins with.
+fn add(sums: &mut [f64], weight: f64, others: &[f64]) {
+    sums.iter_mut().zip(others).for_each(|(sum, other)| *sum += weight * other);
 }
 
 /// What the eye makes of a channel of YCxCz: a sum of Gaussians a·√(π/b)·exp(−π²d²/b), d in degrees, normalised.
