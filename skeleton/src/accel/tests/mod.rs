@@ -3,6 +3,7 @@
 mod build;
 mod ends;
 mod hits;
+mod leaks;
 
 use glam::{DVec3, Vec3};
 
