@@ -28,16 +28,16 @@ pub struct HostProcess {
     responses: Receiver<std::io::Result<Option<Response>>>,
     scenes: u32,
     job_time: Duration,
-    /// In which scene and with which settings it rendered last.
+    /// In which scene and with which settings the first part of a job was in time, the last that was.
     tried: Option<(u32, Settings)>,
     layers: Layers,
 }
 
-/// This part of a job is rendered first, to see whether it will ever end …
-const TRIAL: usize = 8;
+/// A job is tried with this part of it, to see whether it will ever end …
+const FIRST_PART: usize = 8;
 
 /// … within this part of the time: a third more than its share.
-const TRIAL_TIME: u32 = 6;
+const FIRST_PART_TIME: u32 = 6;
 
 /// What a hand-in can do instead of answering. Each is a finding about it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -47,7 +47,7 @@ pub enum Fault {
     Panic(String),
     /// It did not answer within this time.
     Timeout(Duration),
-    /// It would not have answered in time: it did not render the first part of a job within this time.
+    /// It would not have answered in time: it did not finish the first part of a job within this time.
     TooSlow(Duration),
     /// Its process ended.
     Crash(String),
@@ -61,10 +61,20 @@ impl std::fmt::Display for Fault {
             Self::Panic(message) => write!(f, "it panicked: {message}"),
             Self::Timeout(time) => write!(f, "it did not finish within {} s", time.as_secs_f64()),
             Self::TooSlow(time) => {
-                write!(f, "it did not finish 1/{TRIAL} of it within {} s", time.as_secs_f64())
+                write!(f, "it did not finish the first eighth of a job within {} s", time.as_secs_f64())
             }
             Self::Crash(status) => write!(f, "its process ended early ({status})"),
             Self::Malformed(what) => write!(f, "its answer was not what was asked for ({what})"),
+        }
+    }
+}
+
+impl Fault {
+    /// The same fault, of which only the first part of a job was asked for.
+    fn of_first_part(self) -> Self {
+        match self {
+            Self::Timeout(time) => Self::TooSlow(time),
+            other => other,
         }
     }
 }
@@ -123,21 +133,21 @@ impl HostProcess {
 
     /// Has batches rendered. All means are finite and there are as many as asked for.
     ///
-    /// In a scene, and with settings, that are new to the process the first few batches go first: nobody waits for the
-    /// others if even these take too long.
+    /// Unless this went well just before with this scene and these settings, an eighth of the batches goes first: nobody
+    /// waits for the others if even these take too long. Jobs of fewer than eight batches are not divided.
     pub fn render(&mut self, job: &RenderJob) -> Answer<Rendered> {
         let place = Some((job.scene, job.settings));
-        let known = std::mem::replace(&mut self.tried, place) == place;
-        let (trial, rest) = job.seeds.split_at(if known { 0 } else { job.seeds.len() / TRIAL });
-        if trial.is_empty() {
+        let first = if self.tried == place { 0 } else { job.seeds.len() / FIRST_PART };
+        if first == 0 {
             return self.render_in_time(job, self.job_time);
         }
         let part = |seeds: &[u64]| RenderJob { seeds: seeds.to_vec(), ..job.clone() };
-        let mut rendered = match self.render_in_time(&part(trial), self.job_time / TRIAL_TIME)? {
+        let (first, rest) = job.seeds.split_at(first);
+        let mut rendered = match self.render_in_time(&part(first), self.job_time / FIRST_PART_TIME)? {
             Ok(rendered) => rendered,
-            Err(Fault::Timeout(time)) => return Ok(Err(Fault::TooSlow(time))),
-            Err(fault) => return Ok(Err(fault)),
+            Err(fault) => return Ok(Err(fault.of_first_part())),
         };
+        self.tried = place;
         Ok(self.render_in_time(&part(rest), self.job_time)?.map(|more| {
             rendered.append(more);
             rendered
@@ -154,8 +164,21 @@ impl HostProcess {
     }
 
     /// Follows paths through scripted scenes: for each scene as many as asked for. Their radiance may be anything.
+    ///
+    /// An eighth of them is followed before, to see whether that ends.
     pub fn probe(&mut self, job: &ProbeJob) -> Answer<Vec<Vec<ProbedPath>>> {
-        match self.ask(&Request::Probe(Cow::Borrowed(job)), self.job_time)? {
+        let first = job.samples / FIRST_PART as u64;
+        if first > 0 {
+            let job = ProbeJob { samples: first, ..job.clone() };
+            if let Err(fault) = self.probe_in_time(&job, self.job_time / FIRST_PART_TIME)? {
+                return Ok(Err(fault.of_first_part()));
+            }
+        }
+        self.probe_in_time(job, self.job_time)
+    }
+
+    fn probe_in_time(&mut self, job: &ProbeJob, time: Duration) -> Answer<Vec<Vec<ProbedPath>>> {
+        match self.ask(&Request::Probe(Cow::Borrowed(job)), time)? {
             Ok(Response::Probed(paths)) => {
                 let whole = paths.len() == job.scenes.len()
                     && paths.iter().all(|paths| paths.len() as u64 == job.samples);
@@ -188,9 +211,19 @@ impl HostProcess {
         Ok(self.answer(time))
     }
 
-    /// What the process says next, in time.
+    /// What the process says next, in time. If it had less than half of that time on a processor, because the machine
+    /// had other things to do, it is given what a job may take at most.
     fn answer(&mut self, time: Duration) -> std::result::Result<Response, Fault> {
-        match self.responses.recv_timeout(time) {
+        let before = sandbox::processor_time(&self.child);
+        let (mut time, mut said) = (time, self.responses.recv_timeout(time));
+        if matches!(said, Err(RecvTimeoutError::Timeout)) && time < self.job_time {
+            let worked = before.zip(sandbox::processor_time(&self.child));
+            if worked.is_some_and(|(before, now)| now.saturating_sub(before) < time / 2) {
+                said = self.responses.recv_timeout(self.job_time - time);
+                time = self.job_time;
+            }
+        }
+        match said {
             Ok(Ok(Some(response))) => Ok(response),
             Ok(Ok(None)) | Err(RecvTimeoutError::Disconnected) => Err(self.crash()),
             Ok(Err(error)) if error.kind() == ErrorKind::UnexpectedEof => Err(self.crash()),

@@ -6,7 +6,7 @@ use foldhash::fast::FixedState;
 use rayon::prelude::*;
 
 /// Fewer things than this are not worth another thread.
-const LEAST: usize = 1 << 12;
+pub(crate) const LEAST: usize = 1 << 12;
 
 /// For each of `count` things the number of the first that has the same key.
 pub(crate) fn firsts<K: Hash + Eq>(count: usize, key: impl Fn(usize) -> K + Sync) -> Vec<u32> {

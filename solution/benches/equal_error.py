@@ -4,14 +4,15 @@
 
     python3 solution/benches/equal_error.py [VARIANT] [SCENE …]
 
-VARIANT is llvm_ad_rgb (the default) or scalar_rgb; the latter only renders diffuse scenes, since Mitsuba has no modified
+VARIANT is llvm_ad_rgb (the default) or scalar_rgb; the latter is for the diffuse scene, since Mitsuba has no modified
 Phong model and the one below runs in Python. It is compiled with everything else where Mitsuba compiles.
 
 Both render each picture several times, with seeds of their own. Neither is biased, so the error is the variance:
 relMSE = mean(variance / (mean² + 0.01)), over pixels and channels. Relative error falls as 1/time, so
 relMSE · time is what each pays for an error, whatever that is; the last column is Mitsuba's price divided by arty's: above
 1, arty is there first. Time is processor time over all threads, without Mitsuba's compilation and first picture; arty's
-includes its start. `means` is by how much the two pictures' means differ, which says that both rendered the same scene.
+includes its start. `means` is by how much the two pictures' means differ; more than one percent says that they are not of the same scene,
+and ends this with an error.
 """
 
 import resource
@@ -40,7 +41,7 @@ CASES = {
 WIDTH, HEIGHT, SAMPLES, PICTURES = 512, 412, 16, 8
 
 variant = next((a for a in sys.argv[1:] if a.endswith("_rgb")), "llvm_ad_rgb")
-cases = [a for a in sys.argv[1:] if a != variant] or list(CASES)
+cases = [a for a in sys.argv[1:] if a != variant] or (["cornell_box"] if variant == "scalar_rgb" else list(CASES))
 mi.set_variant(variant)
 import drjit as dr  # noqa: E402 (needs the variant)
 
@@ -190,5 +191,7 @@ for case in cases:
         rate = WIDTH * HEIGHT * SAMPLES / seconds / 1e6
         line = f"{case:<20} {name:>8} {rate:>16.2f} {error:>10.4f} {prices[-1]:>11.4f}"
         if len(prices) == 2:
+            if abs(means[1] / means[0] - 1) > 0.01:
+                sys.exit(f"{case}: Mitsuba's pictures have a mean of {means[0]:.4f}, arty's {means[1]:.4f}: not the same scene")
             line += f" {100 * (means[1] / means[0] - 1):>+7.2f}% {prices[0] / prices[1]:>15.2f}"
         print(line)

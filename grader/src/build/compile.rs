@@ -20,11 +20,11 @@ const PROGRAM: &str = include_str!("../../host/program/main.rs");
 pub struct HandInProgram {
     /// The program.
     pub executable: PathBuf,
-    /// How long rustc took.
+    /// How long rustc took; nothing if it was compiled earlier.
     pub compile_time: Duration,
     /// What it may use up when it runs.
     pub limits: Limits,
-    /// How rustc was confined.
+    /// How rustc was confined, if it was called now.
     pub layers: Layers,
     _folder: Scratch,
 }
@@ -48,6 +48,11 @@ impl HandInProgram {
             _folder: folder,
         })
     }
+}
+
+/// Over all that decides how a source is compiled, but for source and framework.
+pub(crate) fn recipe() -> blake3::Hash {
+    blake3::hash(&[PROGRAM.as_bytes(), include_bytes!("compile.rs")].concat())
 }
 
 /// Why a hand-in does not compile.

@@ -4,6 +4,6 @@ mod compile;
 mod framework;
 mod scratch;
 
-pub(crate) use compile::EMPTY_HAND_IN;
 pub use compile::{BuildFailure, HandInProgram, compile};
+pub(crate) use compile::{EMPTY_HAND_IN, recipe};
 pub use framework::Framework;

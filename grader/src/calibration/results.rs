@@ -1,5 +1,6 @@
 //! What was counted, kept so that nothing is computed twice.
 
+use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -101,8 +102,21 @@ impl Results {
             Err(error) => return Err(Error::file(&path, error)),
         };
         // A line that was cut off, or is of an older format, is a result to be computed again.
-        let lines = text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
-        Ok(Self { path, lines })
+        let mut results = Self { path, lines: Vec::new() };
+        text.lines().filter_map(|line| serde_json::from_str(line).ok()).for_each(|line| results.keep(line));
+        Ok(results)
+    }
+
+    /// A result takes the place of an earlier one of the same, which was of fewer draws.
+    fn keep(&mut self, line: Line) {
+        let is_same = |other: &&mut Line| {
+            (&other.key, &other.variant, &other.check, other.test, other.bias)
+                == (&line.key, &line.variant, &line.check, line.test, line.bias)
+        };
+        match self.lines.iter_mut().find(is_same) {
+            Some(earlier) => *earlier = line,
+            None => self.lines.push(line),
+        }
     }
 
     /// The result that is there already.
@@ -113,9 +127,9 @@ impl Results {
         })
     }
 
-    /// All results of a key.
-    pub fn of<'a>(&'a self, key: &'a str) -> impl Iterator<Item = &'a Line> {
-        self.lines.iter().filter(move |line| line.key == key)
+    /// All results of some keys.
+    pub fn of<'a>(&'a self, keys: &'a BTreeSet<String>) -> impl Iterator<Item = &'a Line> {
+        self.lines.iter().filter(|line| keys.contains(&line.key))
     }
 
     /// Adds a result, on the disk too.
@@ -130,7 +144,7 @@ impl Results {
             .open(&self.path)
             .and_then(|mut file| writeln!(file, "{text}"))
             .map_err(|error| Error::file(&self.path, error))?;
-        self.lines.push(line);
+        self.keep(line);
         Ok(())
     }
 }

@@ -22,6 +22,7 @@ use crate::intake::{self, Finding, HandIn};
 use crate::marks::Marks;
 use crate::mutants::hash_tree;
 use crate::policy::{Lateness, Policy, Receipt, the_one_that_counts};
+use crate::reference::Oracle;
 use crate::workspace::Workspace;
 
 /// How a class is graded.
@@ -317,15 +318,16 @@ impl Shared<'_> {
     }
 }
 
-/// Over the framework, what judges, rubric, scenes, references and seed; not over the policy, which changes no
-/// verdict.
+/// Over the framework, what judges, the solution, rubric, scenes, references and seed; not over the policy, which changes
+/// no verdict.
 fn hash_of_inputs(workspace: &Workspace, grader: &Grader, options: &Options) -> Result<blake3::Hash> {
     let mut hasher = blake3::Hasher::new();
     for (name, value) in grader.provenance().iter().filter(|(name, _)| *name != "rubric") {
         hasher.update(format!("{name}={value}\n").as_bytes());
     }
     hasher.update(format!("{:?} {:?}", grader.rubric().tasks, options.only).as_bytes());
-    for path in ["grader/src", "scenes"] {
+    hasher.update(format!("{:?}", grader.oracle().map(Oracle::hash)).as_bytes());
+    for path in ["grader/src", "grader/host/program", "scenes"] {
         hash_tree(&workspace.root().join(path), &mut hasher)?;
     }
     Ok(hasher.finalize())

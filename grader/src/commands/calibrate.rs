@@ -1,7 +1,7 @@
 //! `grader calibrate`.
 
 use std::cell::OnceCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -61,6 +61,13 @@ const BIASES: [f64; 4] = [0.005, 0.01, 0.02, 0.05];
 /// The checks that judge one picture by its mean.
 const BY_MEANS: [CheckKind; 3] = [CheckKind::MeanBias, CheckKind::ClosedForm, CheckKind::WhiteFurnace];
 
+/// How samples are recorded, drawn and judged.
+const TRIALS: &str = concat!(
+    include_str!("../calibration/mod.rs"),
+    include_str!("../calibration/fixed.rs"),
+    include_str!("../calibration/pool.rs")
+);
+
 /// The seed of all recorded samples and draws.
 const SEED: u64 = 1;
 
@@ -73,7 +80,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         |name: &str| arguments.out.clone().unwrap_or_else(|| workspace.root().join("target").join(name));
     let mut calibration = Calibration {
         arguments,
-        key: hash_of_inputs(&workspace, &arguments.assignment.name)?.to_hex()[..32].to_owned(),
+        base: hash_of_inputs(&workspace, &arguments.assignment.name)?,
         threads: arguments.jobs.unwrap_or_else(rayon::current_num_threads).max(1),
         results: Results::open(&folder("calibration"))?,
         ledger: Ledger::open(&folder("mutants"), &workspace, &arguments.assignment.name)?,
@@ -111,7 +118,8 @@ struct Calibration<'a> {
     wrong: &'a [Variant],
     framework: Framework,
     scenes: BTreeMap<String, JudgedScene>,
-    key: String,
+    /// Over what is the same for all variants.
+    base: blake3::Hash,
     threads: usize,
     results: Results,
     ledger: Ledger,
@@ -121,6 +129,17 @@ struct Calibration<'a> {
 impl Calibration<'_> {
     fn is_over(&self) -> bool {
         self.deadline.is_some_and(|deadline| std::time::Instant::now() >= deadline)
+    }
+
+    /// Over all that what is drawn from a variant's samples depends on.
+    fn key(&self, variant: &Variant) -> String {
+        let solution = self.right.first().map_or("", |solution| solution.source.as_str());
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(self.base.as_bytes()).update(&self.arguments.pool.to_le_bytes());
+        for text in [TRIALS.as_bytes(), solution.as_bytes(), variant.source.as_bytes()] {
+            hasher.update(blake3::hash(text).as_bytes());
+        }
+        hasher.finalize().to_hex()[..32].to_owned()
     }
 
     /// The checks of the rubric that judge one picture by its mean.
@@ -208,9 +227,9 @@ impl Calibration<'_> {
         record: impl FnOnce(&Recorder<'_>) -> Result<Option<Pool>>,
         truth: Option<(&HandInProgram, &OnceCell<Pool>)>,
     ) -> Result<()> {
-        let mut wanted = wanted.to_vec();
+        let (key, mut wanted) = (self.key(variant), wanted.to_vec());
         wanted.retain(|&(test, bias, count)| {
-            let known = self.results.find(&self.key, &variant.id, &spec.id(), test, bias);
+            let known = self.results.find(&key, &variant.id, &spec.id(), test, bias);
             count > 0 && known.is_none_or(|line| test == Test::Sequential && line.counts.grades < count)
         });
         if wanted.is_empty() {
@@ -243,7 +262,7 @@ impl Calibration<'_> {
         };
         for (test, bias, count) in wanted {
             let counts = trial.run(test, count, bias, SEED);
-            let (key, variant, check) = (self.key.clone(), variant.id.clone(), spec.id());
+            let (key, variant, check) = (key.clone(), variant.id.clone(), spec.id());
             let seconds_per_path = pool.seconds_per_path();
             self.results.add(Line { key, variant, check, test, bias, counts, seconds_per_path })?;
         }
@@ -276,7 +295,9 @@ impl Calibration<'_> {
     }
 
     fn table(&self) -> (String, Option<String>) {
-        let lines: Vec<&Line> = self.results.of(&self.key).collect();
+        let variants = self.right.iter().chain(self.wrong);
+        let keys: BTreeSet<String> = variants.map(|variant| self.key(variant)).collect();
+        let lines: Vec<&Line> = self.results.of(&keys).collect();
         let mut checks: Vec<String> = self.checks().iter().map(|spec| spec.id()).collect();
         checks.dedup();
         let wrong: Vec<String> = self.wrong.iter().map(|variant| variant.id.clone()).collect();

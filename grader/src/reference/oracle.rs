@@ -7,8 +7,9 @@ use arty::integrator::Settings;
 use arty::scene::SceneDescription;
 
 use super::make::live;
-use crate::build::{Framework, HandInProgram, compile};
+use crate::build::{Framework, HandInProgram, compile, recipe};
 use crate::error::{Error, Result};
+use crate::host_process::HostProcess;
 use crate::sandbox::Limits;
 use crate::statistics::bias::Expected;
 use crate::submission::Submission;
@@ -21,7 +22,7 @@ use crate::workspace::Workspace;
 pub struct Oracle {
     submission: Submission,
     framework: Framework,
-    /// Over the framework, the solution's source, and how its samples become an answer.
+    /// Over the framework, the solution's source, how it is compiled, and how its samples become an answer.
     hash: blake3::Hash,
     folder: PathBuf,
     program: Mutex<Option<Arc<HandInProgram>>>,
@@ -40,6 +41,7 @@ impl Oracle {
         let mut hasher = blake3::Hasher::new();
         hasher.update(framework.hash()?.as_bytes());
         hasher.update(include_bytes!("make.rs"));
+        hasher.update(recipe().as_bytes());
         let submission = Submission::read(&path)?;
         hasher.update(submission.source.as_bytes());
         Ok(Some(Self {
@@ -49,6 +51,11 @@ impl Oracle {
             folder: workspace.framework_target().join("answers"),
             program: Mutex::default(),
         }))
+    }
+
+    /// Over all that programs and answers depend on.
+    pub(crate) fn hash(&self) -> blake3::Hash {
+        self.hash
     }
 
     /// The solution as a program, built like any hand-in, now or earlier.
@@ -61,16 +68,19 @@ impl Oracle {
             return Ok(Arc::clone(program));
         }
         let (limits, file) = (Limits::default(), self.folder.join(format!("{}.program", self.hash)));
-        let compiled = match read(&file) {
-            Some(executable) => HandInProgram::again(&executable, &limits)?,
+        let earlier = read(&file).and_then(|executable| HandInProgram::again(&executable, &limits).ok());
+        // It may have come here with a cache, from a machine with another C library.
+        let compiled = match earlier.filter(|program| HostProcess::start(program, 1).is_ok()) {
+            Some(program) => program,
             None => {
                 let Submission { path, source } = &self.submission;
                 let compiled = compile(&self.framework, source, &limits)?.map_err(|failure| {
                     Error::file(path, format!("does not compile:\n{}", failure.messages))
                 })?;
-                let executable = std::fs::read(&compiled.executable)
-                    .map_err(|error| Error::file(&compiled.executable, error))?;
-                self.write(&file, &executable)?;
+                // Whoever cannot keep it compiles it again.
+                let _ = std::fs::read(&compiled.executable)
+                    .map_err(|error| Error::file(&compiled.executable, error))
+                    .and_then(|executable| self.write(&file, &executable));
                 compiled
             }
         };

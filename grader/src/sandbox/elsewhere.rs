@@ -1,7 +1,8 @@
 //! Systems that have no sandbox for us: macOS, Windows and others.
 
 use std::path::Path;
-use std::process::Command;
+use std::process::{Child, Command};
+use std::time::Duration;
 
 use host::confine::Layers;
 
@@ -32,6 +33,11 @@ impl Machine {
 
 pub(super) fn confine(_: &mut Command, _: Profile<'_>, _: &Limits) -> Result<Layers> {
     Ok(Layers::default())
+}
+
+/// The processor time that a process has had, all threads together: not known here.
+pub(crate) fn processor_time(_: &Child) -> Option<Duration> {
+    None
 }
 
 /// Gives a folder and its files to the user that hand-ins run as: the same one, here.

@@ -1,6 +1,7 @@
 //! Linux: what of the sandbox this machine has, and how a process gets it before its program starts.
 
 mod calls;
+mod clock;
 mod user;
 
 use std::os::unix::process::CommandExt;
@@ -20,6 +21,7 @@ use super::{Grants, Limits};
 use crate::error::{Error, Result};
 use user::{Switch, User, switch_user};
 
+pub(crate) use clock::processor_time;
 pub(crate) use user::hand_over;
 
 /// What this machine can do to confine a hand-in, as it was found by trying.

@@ -30,4 +30,4 @@ pub(crate) use level::{both, missing};
 pub use limits::Limits;
 pub(crate) use process::{Profile, end, prepare};
 pub use system::Machine;
-pub(crate) use system::hand_over;
+pub(crate) use system::{hand_over, processor_time};

@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::exact;
-use crate::firsts::firsts;
+use crate::firsts::{LEAST, firsts};
 
 /// What is left of a list of triangles.
 pub(super) struct Cleaned {
@@ -48,6 +48,3 @@ pub(super) fn clean(all: &[[Vec3; 3]]) -> Cleaned {
     }
     cleaned
 }
-
-/// Fewer triangles than this are not worth another thread.
-const LEAST: usize = 1 << 12;

@@ -180,7 +180,9 @@ impl Accel {
     fn intersect_with<V: Lanes>(&self, ray: Pairs, t_max: f32, leaves: u32) -> Option<TriangleHit> {
         let [origin, direction] = ray.vectors();
         let ray = PreparedRay::new(origin * self.scale, direction * self.scale, leaves)?;
-        let mut nearest = Nearest { t: t_max, primitive: 0, weights: [0.0; 2], weight_sum: 0.0 };
+        // An infinite end would meet the empty boxes of unused lanes where rounding takes a ray's origin to infinity.
+        let end = if t_max > f32::MAX { f32::MAX } else { t_max };
+        let mut nearest = Nearest { t: end, primitive: 0, weights: [0.0; 2], weight_sum: 0.0 };
         self.tree.intersect::<V>(&ray, &mut nearest);
         let Nearest { t, primitive, weights, weight_sum } = nearest;
         if weight_sum == 0.0 {

@@ -202,7 +202,8 @@ impl Tree {
                 }
             }
             if nodes != 0 {
-                // The nearest next, the others in any order: the first blocker found ends it all.
+                // The farthest next, the others in any order: the first blocker found ends it all, and it is seldom in what
+                // surrounds the origin.
                 let distances = distances.store();
                 let mut first = node.entry(&distances, &mut nodes);
                 while nodes != 0 {

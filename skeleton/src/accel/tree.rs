@@ -29,7 +29,6 @@ pub(super) struct Node {
     pub(super) children: [u32; 8],
     /// A bit for each child that is a packet.
     pub(super) packets: u32,
-    unused: [u32; 7],
 }
 
 const _: () = assert!(size_of::<Node>() == 256, "a node is four cache lines");
@@ -42,7 +41,6 @@ impl Node {
         },
         children: [0; 8],
         packets: 0,
-        unused: [0; 7],
     };
 }
 

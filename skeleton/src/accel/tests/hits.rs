@@ -83,7 +83,7 @@ fn rays_that_are_not_finite_hit_nothing() {
         let origin = Vec3::new(pick(3), 0.1, 0.2);
         let ordinary = Vec3::new(0.1, 0.2, 0.3);
         for (origin, direction) in
-            [(origin, vector), (vector, origin), (ordinary, vector), (vector, ordinary)]
+            [(origin, vector), (vector, origin), (ordinary, vector), (vector, ordinary), (vector, -ordinary)]
         {
             let hit = accel.intersect(origin, direction, f32::INFINITY, None);
             let blocked = accel.occluded(origin, direction, None);

@@ -1,0 +1,20 @@
+//! How long a process has been at work.
+
+use std::process::Child;
+use std::time::Duration;
+
+/// The processor time that a process has had, all threads together; `None` if it is gone.
+pub(crate) fn processor_time(child: &Child) -> Option<Duration> {
+    let pid = libc::pid_t::try_from(child.id()).ok()?;
+    let mut clock = 0;
+    // SAFETY: writes the number of a clock into a variable of its type.
+    if unsafe { libc::clock_getcpuclockid(pid, &raw mut clock) } != 0 {
+        return None;
+    }
+    let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };
+    // SAFETY: writes a time into a variable of its type. A clock whose process is gone is an error.
+    if unsafe { libc::clock_gettime(clock, &raw mut time) } != 0 {
+        return None;
+    }
+    Some(Duration::new(u64::try_from(time.tv_sec).ok()?, u32::try_from(time.tv_nsec).ok()?))
+}
