@@ -78,9 +78,7 @@ impl Oracle {
                     Error::file(path, format!("does not compile:\n{}", failure.messages))
                 })?;
                 // Whoever cannot keep it compiles it again.
-                let _ = std::fs::read(&compiled.executable)
-                    .map_err(|error| Error::file(&compiled.executable, error))
-                    .and_then(|executable| self.write(&file, &executable));
+                let _ = self.keep(&file, &compiled);
                 compiled
             }
         };
@@ -108,6 +106,19 @@ impl Oracle {
         let bytes = postcard::to_stdvec(&answer).map_err(|error| Error::file(&file, error))?;
         self.write(&file, &bytes)?;
         Ok(answer)
+    }
+
+    /// Keeps the program, in place of earlier ones.
+    fn keep(&self, file: &Path, program: &HandInProgram) -> Result<()> {
+        let trouble = |error| Error::file(&self.folder, error);
+        let executable = std::fs::read(&program.executable).map_err(trouble)?;
+        for entry in std::fs::read_dir(&self.folder).into_iter().flatten() {
+            let path = entry.map_err(trouble)?.path();
+            if path.extension() == file.extension() {
+                std::fs::remove_file(path).map_err(trouble)?;
+            }
+        }
+        self.write(file, &executable)
     }
 
     /// Writes something down for [`read`].
