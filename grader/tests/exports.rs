@@ -36,10 +36,10 @@ fn at<'a>(value: &'a Value, path: &[&str]) -> &'a Value {
     path.iter().fold(value, |value, key| &value[*key])
 }
 
-/// Runs a script of a CI system in an empty folder, where `cargo grade` is the grader under test.
+/// Runs a script of a CI system in a folder, where `cargo grade` is the grader under test.
 fn run_script(folder: &Path, script: &str, environment: &[(&str, String)]) -> Output {
     let tools = folder.join("tools");
-    std::fs::create_dir(&tools).expect("it can be made");
+    std::fs::create_dir_all(&tools).expect("it can be made");
     let cargo = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
     let shim = format!(
         "#!/bin/sh\ncase $1 in\n  grade) exec '{}' \"$@\" ;;\n  grader) shift; exec '{0}' \"$@\" ;;\n  *) exec '{cargo}' \"$@\" ;;\nesac\n",
@@ -67,7 +67,7 @@ fn the_script_for_github_writes_summary_annotations_and_what_is_kept() {
     let file = root().join("assignments/05-nee-mis/ci/github.yml");
     let workflow: Value = serde_yaml::from_str(&read(&file)).expect("it is YAML");
     let steps = at(&workflow, &["jobs", "grade", "steps"]).as_sequence().expect("there are steps");
-    let script = steps.iter().find_map(|step| step["run"].as_str()).expect("one runs a script");
+    let script = run_by(steps, "Grade");
     let folder = tempfile::tempdir().expect("a temporary folder");
     let summary = folder.path().join("summary.md");
     std::fs::write(&summary, "earlier\n").expect("it can be written");
@@ -123,6 +123,60 @@ fn the_script_for_gitlab_leaves_the_report_where_gitlab_takes_it() {
     names.sort();
     names.dedup();
     assert_eq!((names.len(), report.tests), (all, all));
+}
+
+#[test]
+#[cfg(unix)]
+fn what_was_built_of_the_same_sources_is_not_built_again() {
+    let ci = root().join("assignments/05-nee-mis/ci");
+    let github: Value = serde_yaml::from_str(&read(&ci.join("github.yml"))).expect("it is YAML");
+    let gitlab: Value = serde_yaml::from_str(&read(&ci.join("gitlab.yml"))).expect("it is YAML");
+    let steps = at(&github, &["jobs", "grade", "steps"]).as_sequence().expect("there are steps");
+    let scripts = [
+        run_by(steps, "Keep what was built"),
+        at(&gitlab, &["grade", "before_script"])[0].as_str().expect("a script"),
+    ];
+    for script in scripts {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let file = |name: &str| folder.path().join(name);
+        for name in [
+            "Cargo.toml",
+            "Cargo.lock",
+            ".cargo/config.toml",
+            "grader/a.rs",
+            "skeleton/b.css",
+            "skeleton/render_pt.rs",
+        ] {
+            std::fs::create_dir_all(file(name).parent().expect("it has one")).expect("it can be made");
+            std::fs::write(file(name), name).expect("it can be written");
+        }
+        let is_old = || -> Vec<bool> {
+            let output = run_script(folder.path(), script, &[]);
+            assert!(output.status.success() && output.stdout.is_empty(), "{}", text(&output.stderr));
+            let old = |name: &str| {
+                let age = file(name)
+                    .metadata()
+                    .and_then(|file| file.modified())
+                    .expect("there are times")
+                    .elapsed();
+                age.expect("it lies in the past").as_secs() > 24 * 3600
+            };
+            ["Cargo.lock", "skeleton/b.css", "skeleton/render_pt.rs"].map(old).to_vec()
+        };
+        assert_eq!(is_old(), [false; 3], "nothing was built yet");
+        std::fs::write(file("skeleton/render_pt.rs"), "another").expect("it can be written");
+        assert_eq!(is_old(), [true, true, false], "all but the hand-in is the same");
+        std::fs::write(file("skeleton/b.css"), "another").expect("it can be written");
+        std::fs::write(file("Cargo.lock"), "Cargo.lock").expect("it can be written");
+        assert_eq!(is_old(), [false; 3], "it was built of others");
+    }
+}
+
+/// The script of a step.
+#[cfg(unix)]
+fn run_by<'a>(steps: &'a [Value], name: &str) -> &'a str {
+    let step = steps.iter().find(|step| step["name"] == name).expect("there is such a step");
+    step["run"].as_str().expect("it runs a script")
 }
 
 #[test]
