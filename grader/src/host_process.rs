@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::io::{BufReader, ErrorKind, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use arty::integrator::Settings;
 use arty::scene::SceneDescription;
@@ -28,6 +28,8 @@ pub struct HostProcess {
     responses: Receiver<std::io::Result<Option<Response>>>,
     scenes: u32,
     job_time: Duration,
+    /// What all jobs together may take, and what is left of it.
+    all_jobs: Option<[Duration; 2]>,
     /// In which scene and with which settings the first part of a job was in time, the last that was.
     tried: Option<(u32, Settings)>,
     layers: Layers,
@@ -70,12 +72,9 @@ impl std::fmt::Display for Fault {
 }
 
 impl Fault {
-    /// The same fault, of which only the first part of a job was asked for.
-    fn of_first_part(self) -> Self {
-        match self {
-            Self::Timeout(time) => Self::TooSlow(time),
-            other => other,
-        }
+    /// The same fault, where only the first part of a job was asked for, within this time.
+    fn of_first_part(self, time: Duration) -> Self {
+        if self == Self::Timeout(time) { Self::TooSlow(time) } else { self }
     }
 }
 
@@ -103,8 +102,9 @@ impl HostProcess {
         let responses = receive(child.stdout.take().expect("stdout is piped"), limits.answer);
         let job_time = limits.job_time;
         let layers = Layers::default();
-        let mut process = Self { child, requests, responses, scenes: 0, job_time, tried: None, layers };
-        match process.answer(job_time) {
+        let mut process =
+            Self { child, requests, responses, scenes: 0, job_time, all_jobs: None, tried: None, layers };
+        match process.answer(job_time, job_time) {
             Ok(Response::Started(layers)) => process.layers = layers,
             Ok(_) => return Err(Error::Harness("the hand-in's program did not say that it is there".into())),
             Err(fault) => {
@@ -112,6 +112,13 @@ impl HostProcess {
             }
         }
         Ok(process)
+    }
+
+    /// The same process, which may take no longer than this for all that it is asked.
+    #[must_use]
+    pub fn within(mut self, time: Duration) -> Self {
+        self.all_jobs = Some([time; 2]);
+        self
     }
 
     /// How the process is confined: what held when it was tried, before any code of the hand-in.
@@ -143,9 +150,10 @@ impl HostProcess {
         }
         let part = |seeds: &[u64]| RenderJob { seeds: seeds.to_vec(), ..job.clone() };
         let (first, rest) = job.seeds.split_at(first);
-        let mut rendered = match self.render_in_time(&part(first), self.job_time / FIRST_PART_TIME)? {
+        let time = self.job_time / FIRST_PART_TIME;
+        let mut rendered = match self.render_in_time(&part(first), time)? {
             Ok(rendered) => rendered,
-            Err(fault) => return Ok(Err(fault.of_first_part())),
+            Err(fault) => return Ok(Err(fault.of_first_part(time))),
         };
         self.tried = place;
         Ok(self.render_in_time(&part(rest), self.job_time)?.map(|more| {
@@ -169,9 +177,9 @@ impl HostProcess {
     pub fn probe(&mut self, job: &ProbeJob) -> Answer<Vec<Vec<ProbedPath>>> {
         let first = job.samples / FIRST_PART as u64;
         if first > 0 {
-            let job = ProbeJob { samples: first, ..job.clone() };
-            if let Err(fault) = self.probe_in_time(&job, self.job_time / FIRST_PART_TIME)? {
-                return Ok(Err(fault.of_first_part()));
+            let (job, time) = (ProbeJob { samples: first, ..job.clone() }, self.job_time / FIRST_PART_TIME);
+            if let Err(fault) = self.probe_in_time(&job, time)? {
+                return Ok(Err(fault.of_first_part(time)));
             }
         }
         self.probe_in_time(job, self.job_time)
@@ -208,19 +216,26 @@ impl HostProcess {
             .map_err(|error| Error::Harness(format!("a job cannot be sent: {error}")))?;
         // If nobody takes it any more, there will be no answer either.
         let _ = self.requests.send(bytes);
-        Ok(self.answer(time))
+        let Some([all, left]) = self.all_jobs else { return Ok(self.answer(time, self.job_time)) };
+        let start = Instant::now();
+        let answer = self.answer(time.min(left), self.job_time.min(left));
+        self.all_jobs = Some([all, left.saturating_sub(start.elapsed())]);
+        Ok(answer.map_err(|fault| match fault {
+            Fault::Timeout(_) if left < time => Fault::Timeout(all),
+            fault => fault,
+        }))
     }
 
     /// What the process says next, in time. If it had less than half of that time on a processor, because the machine
-    /// had other things to do, it is given what a job may take at most.
-    fn answer(&mut self, time: Duration) -> std::result::Result<Response, Fault> {
+    /// had other things to do, it is given `most`.
+    fn answer(&mut self, time: Duration, most: Duration) -> std::result::Result<Response, Fault> {
         let before = sandbox::processor_time(&self.child);
         let (mut time, mut said) = (time, self.responses.recv_timeout(time));
-        if matches!(said, Err(RecvTimeoutError::Timeout)) && time < self.job_time {
+        if matches!(said, Err(RecvTimeoutError::Timeout)) && time < most {
             let worked = before.zip(sandbox::processor_time(&self.child));
             if worked.is_some_and(|(before, now)| now.saturating_sub(before) < time / 2) {
-                said = self.responses.recv_timeout(self.job_time - time);
-                time = self.job_time;
+                said = self.responses.recv_timeout(most - time);
+                time = most;
             }
         }
         match said {

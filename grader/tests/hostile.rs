@@ -210,7 +210,8 @@ fn nobody_waits_to_the_end_for_a_hand_in_that_is_too_slow_by_far_unless_it_had_n
         );
         let limits = Limits { job_time: Duration::from_secs(3), ..Limits::default() };
         let program = compile(&framework, &source, &limits).expect("rustc runs").expect("it compiles");
-        let mut process = HostProcess::start(&program, 1).expect("the program starts");
+        let process = HostProcess::start(&program, 1).expect("the program starts");
+        let mut process = process.within(limits.job_time);
         let scene = process.load(&scene.description).expect("the pipe holds").expect("the scene loads");
         let job = |seeds: std::ops::Range<u64>| RenderJob {
             scene,
@@ -250,6 +251,8 @@ fn nobody_waits_to_the_end_for_a_hand_in_that_is_too_slow_by_far_unless_it_had_n
     let awake_later =
         format!("static ONCE: std::sync::Once = std::sync::Once::new(); ONCE.call_once(|| {asleep})");
     assert!(render(&awake_later).iter().all(Result::is_ok));
+    // No job takes longer than it may; all together do.
+    assert_eq!(render(&work(100))[2], Err(Fault::Timeout(Duration::from_secs(3))));
 }
 
 #[test]

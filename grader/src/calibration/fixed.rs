@@ -1,9 +1,14 @@
 //! Two simpler tests, to see what looking again and again is worth.
 //!
 //! Both take a number of samples that is fixed beforehand. Both are held to the nominal rate of false alarms that ours has
-//! in one check, divided among what they look at (Šidák).
+//! in one check, divided among what they look at (Šidák). Heavy tails make that rate a wish, so a number of samples is only
+//! enough if it gives no alarm in [`DRAWS`] draws of correct samples ([`Quiet`]).
+
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
 
 use arty::sampler::batch_seed;
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
@@ -41,7 +46,12 @@ impl Test {
     }
 }
 
+/// With how many samples which test gives no alarm in draws of a check's correct samples, as far as that was tried.
+#[derive(Default)]
+pub struct Quiet(Mutex<BTreeMap<(Test, u64), bool>>);
+
 /// What a test with a fixed number of samples decides on.
+#[derive(Clone, Copy)]
 pub(super) struct Fixed<'a> {
     /// Which of the two.
     pub(super) test: Test,
@@ -53,6 +63,8 @@ pub(super) struct Fixed<'a> {
     /// How often it may be wrong.
     pub(super) level: f64,
     pub(super) seed: u64,
+    /// What is known of the same check's correct samples.
+    pub(super) quiet: &'a Quiet,
 }
 
 /// Of twenty, how many have to be found for a number of samples to be enough.
@@ -66,7 +78,7 @@ const MOST: u64 = 8192;
 impl Fixed<'_> {
     /// How often it sounds an alarm with so many samples of each pixel.
     pub(super) fn alarms(&self, samples: u64, draws: u64) -> Counts {
-        let found = (0..draws).filter(|&number| self.finds(samples, number)).count() as u64;
+        let found = (0..draws).into_par_iter().filter(|&number| self.finds(samples, number)).count() as u64;
         self.counts(samples, draws, found)
     }
 
@@ -74,20 +86,28 @@ impl Fixed<'_> {
     pub(super) fn need(&self) -> Counts {
         let mut samples = FEWEST;
         loop {
-            let mut found = 0;
-            let missed = (0..DRAWS).filter(|&number| {
-                // Once two are missed, more draws change nothing.
-                let open = number < found + 1 + DRAWS - ENOUGH;
-                let finds = open && self.finds(samples, number);
-                found += u64::from(finds);
-                !finds
-            });
-            let missed = missed.count() as u64;
-            if DRAWS - missed >= ENOUGH || samples >= MOST {
-                return self.counts(samples, DRAWS, DRAWS - missed);
+            let found = if self.is_quiet(samples) { self.found(samples) } else { 0 };
+            if found >= ENOUGH || samples >= MOST {
+                return self.counts(samples, DRAWS, found);
             }
             samples *= 2;
         }
+    }
+
+    /// How many draws give an alarm; too few, where that is too few.
+    fn found(&self, samples: u64) -> u64 {
+        let missed = (0..DRAWS).into_par_iter().filter(|&number| !self.finds(samples, number));
+        DRAWS - missed.take_any((DRAWS - ENOUGH + 1) as usize).count() as u64
+    }
+
+    /// True if no draw of correct samples gives an alarm.
+    fn is_quiet(&self, samples: u64) -> bool {
+        let mut known = self.quiet.0.lock().unwrap_or_else(PoisonError::into_inner);
+        *known.entry((self.test, samples)).or_insert_with(|| {
+            let right = Fixed { pool: self.truth, bias: 0.0, ..*self };
+            // Other draws than those in which something is to be found.
+            (DRAWS..2 * DRAWS).into_par_iter().all(|number| !right.finds(samples, number))
+        })
     }
 
     fn counts(&self, samples: u64, grades: u64, found: u64) -> Counts {
@@ -189,15 +209,43 @@ mod tests {
             let mut random = arty::sampler::Sampler::new(number, (0, 0), 0);
             (0..256).map(|_| [-(1.0 - random.next_1d()).ln(); 3]).collect()
         };
-        let pool = Pool::of((0..4096).map(image).collect());
+        let (pool, quiet) = (Pool::of((0..4096).map(image).collect()), Quiet::default());
         for test in [Test::Welch, Test::Pixels] {
-            let need = |bias| Fixed { test, pool: &pool, bias, truth: &pool, level: 1e-6, seed: 1 }.need();
+            let need = |bias| {
+                Fixed { test, pool: &pool, bias, truth: &pool, level: 1e-6, seed: 1, quiet: &quiet }.need()
+            };
             let (large, small) = (need(1.0), need(0.3));
             assert!(large.biased >= ENOUGH && small.biased >= ENOUGH, "{test:?}: {large:?} {small:?}");
             assert!(small.samples > 2 * large.samples, "{test:?}: {large:?} {small:?}");
             let none =
-                Fixed { test, pool: &pool, bias: 0.0, truth: &pool, level: 1e-6, seed: 1 }.alarms(256, 20);
+                Fixed { test, pool: &pool, bias: 0.0, truth: &pool, level: 1e-6, seed: 1, quiet: &quiet }
+                    .alarms(256, 20);
             assert_eq!(none.biased, 0, "{test:?}: nominally 2e-5");
         }
+    }
+
+    #[test]
+    fn what_gives_false_alarms_finds_nothing() {
+        // One sample in ten thousand is ten thousand times as bright: a z-test knows neither mean nor variance.
+        let image = |number: u64| {
+            let mut random = arty::sampler::Sampler::new(number, (0, 0), 0);
+            (0..256)
+                .map(|_| [if random.next_1d() < 1e-4 { 1e4 } else { 0.1 * random.next_1d() }; 3])
+                .collect()
+        };
+        let (pool, quiet) = (Pool::of((0..4096).map(image).collect()), Quiet::default());
+        let fixed = |bias| Fixed {
+            test: Test::Pixels,
+            pool: &pool,
+            bias,
+            truth: &pool,
+            level: 1e-6,
+            seed: 1,
+            quiet: &quiet,
+        };
+        assert_eq!(fixed(0.0).alarms(FEWEST, 20).biased, 20);
+        assert_eq!(fixed(0.0).found(FEWEST), DRAWS);
+        assert!(!fixed(0.05).is_quiet(FEWEST));
+        assert!(fixed(0.05).need().samples > 64 * FEWEST * u64::from(SIZE.0 * SIZE.1));
     }
 }

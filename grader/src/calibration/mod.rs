@@ -12,7 +12,7 @@ mod pool;
 mod results;
 mod table;
 
-pub use fixed::Test;
+pub use fixed::{Quiet, Test};
 pub use plot::svg;
 pub use pool::Pool;
 pub use results::{Counts, Line, Results};
@@ -40,6 +40,8 @@ pub struct Trial<'a> {
     pub tolerance: f64,
     /// The share of the screening level that the check may spend.
     pub screening_level: f64,
+    /// What the simpler tests make of the correct samples.
+    pub quiet: &'a Quiet,
 }
 
 impl Trial<'_> {
@@ -47,7 +49,7 @@ impl Trial<'_> {
     /// nothing is to be found, and as many as tell whether an error is found by the others.
     pub fn run(&self, test: Test, count: u64, bias: f64, seed: u64) -> Counts {
         let level = self.screening_level * CONFIRMATION_LEVEL;
-        let fixed = Fixed { test, pool: self.pool, bias, truth: self.truth, level, seed };
+        let fixed = Fixed { test, pool: self.pool, bias, truth: self.truth, level, seed, quiet: self.quiet };
         match test {
             Test::Sequential => self.judge(count, bias, seed),
             _ if bias == 0.0 && std::ptr::eq(self.pool, self.truth) => fixed.alarms(FIXED_SAMPLES, count),

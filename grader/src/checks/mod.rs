@@ -111,9 +111,9 @@ impl Bench<'_> {
         Self { looks: GLANCE, ..self.clone() }
     }
 
-    /// The hand-in, started anew.
+    /// The hand-in, started anew. For a whole check it has no more time than for a job.
     fn start(&self) -> Result<HostProcess> {
-        HostProcess::start(self.program, self.threads)
+        Ok(HostProcess::start(self.program, self.threads)?.within(self.program.limits.job_time))
     }
 
     /// The scene that a check names.

@@ -11,7 +11,7 @@ use indicatif::ProgressBar;
 
 use super::assignment::Assignment;
 use crate::build::{Framework, HandInProgram, compile};
-use crate::calibration::{Line, Pool, Results, Test, Trial, svg, table};
+use crate::calibration::{Line, Pool, Quiet, Results, Test, Trial, svg, table};
 use crate::checks::JudgedScene;
 use crate::error::{Error, Result};
 use crate::grade::Options;
@@ -225,7 +225,7 @@ impl Calibration<'_> {
         spec: &CheckSpec,
         wanted: &[(Test, f64, u64)],
         record: impl FnOnce(&Recorder<'_>) -> Result<Option<Pool>>,
-        truth: Option<(&HandInProgram, &OnceCell<Pool>)>,
+        truth: Option<(&HandInProgram, &OnceCell<(Pool, Quiet)>)>,
     ) -> Result<()> {
         let (key, mut wanted) = (self.key(variant), wanted.to_vec());
         wanted.retain(|&(test, bias, count)| {
@@ -242,13 +242,15 @@ impl Calibration<'_> {
         let judged = &self.scenes[&spec.scene];
         let recorder = Recorder { judged, spec, count: self.arguments.pool, threads: self.threads };
         let Some(pool) = record(&recorder)? else { return Ok(()) };
-        let truth = match truth {
-            None => &pool,
+        let own = Quiet::default();
+        let (truth, quiet) = match truth {
+            None => (&pool, &own),
             Some((program, truth)) => match truth.get() {
-                Some(truth) => truth,
+                Some((truth, quiet)) => (truth, quiet),
                 None => {
                     let recorded = recorder.correct(program)?;
-                    truth.get_or_init(|| recorded)
+                    let (truth, quiet) = truth.get_or_init(|| (recorded, Quiet::default()));
+                    (truth, quiet)
                 }
             },
         };
@@ -256,6 +258,7 @@ impl Calibration<'_> {
         let trial = Trial {
             pool: &pool,
             truth,
+            quiet,
             expected: &expected,
             tolerance: spec.tolerance,
             screening_level: SCREENING_LEVEL / self.rubric.checks().count() as f64,

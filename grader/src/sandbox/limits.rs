@@ -12,7 +12,8 @@ pub struct Limits {
     /// Address space of rustc and of the linker, each, in bytes. With too little, rustc's messages mislead.
     pub compile_memory: u64,
     /// Time for one job, by the clock on the wall: a million samples at most, for which a correct hand-in needs less
-    /// than a second. A sixth of it is for the first part of a job that is tried before.
+    /// than a second. A sixth of it is for the first part of a job that is tried before. All jobs of a check together
+    /// have no more.
     pub job_time: Duration,
     /// Address space of the host, in bytes, beside what its threads reserve without using it.
     pub job_memory: u64,
