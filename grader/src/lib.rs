@@ -21,6 +21,7 @@ pub mod host_process;
 pub mod image_error;
 pub mod intake;
 pub mod marks;
+pub mod memory;
 pub mod mutants;
 pub mod plan;
 pub mod policy;

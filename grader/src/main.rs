@@ -1,5 +1,6 @@
 //! The grader as a program.
 
 fn main() -> std::process::ExitCode {
+    grader::memory::stay_small();
     grader::commands::run()
 }
