@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 
 use super::super::lanes::Portable;
 use super::super::{Accel, NO_PRIMITIVE, Pairs, TriangleHit, point_on};
-use super::{PLACES, Random, Triangle, ball, cube, place};
+use super::{Random, Triangle, ball, cube};
 
 /// A pixel's or a shadow's worth of random triangles, some of them small, some long.
 fn soup(random: &mut Random, count: usize) -> Vec<Triangle> {
