@@ -182,7 +182,8 @@ fn cost_of_mistakes(text: &mut String, lines: &[&Line], wrong: &[String]) {
         format_args!(
             "\n## What simpler tests need to find the wrong variants\n\nMilliseconds of one core, in the check by means that \
              finds it first; the fixed numbers of samples are those that find an error of {:.0} % in the solution's samples, or more \
-             where that takes more. What is unbiased has no time: other checks find that. Of {} wrong variants {} are found, in {} ms \
+             where that takes more. What is unbiased should have no time, since other checks find that: a test that finds it has \
+             taken more noise, or heavier tails, for an error. Of {} wrong variants {} are found, in {} ms \
              in the median. As a plot: `calibration.svg`.\n\n| variant | {} |\n|---|{}",
             100.0 * MADE_FOR,
             wrong.len(),

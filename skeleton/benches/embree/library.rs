@@ -58,9 +58,9 @@ impl RayHit {
     }
 }
 
-/// Embree, loaded.
+/// Embree, loaded. It is never unloaded: its threads may still be at work when this program ends.
 pub(super) struct Embree {
-    library: Library,
+    library: &'static Library,
     device: Handle,
 }
 
@@ -75,7 +75,7 @@ impl Embree {
     /// Loads a library and makes a device.
     pub(super) fn load(path: &Path) -> Result<Self, Box<dyn std::error::Error>> {
         // SAFETY: whoever names a library trusts the code that runs when it is loaded; Embree's has no demands.
-        let library = unsafe { Library::new(path) }?;
+        let library: &'static Library = Box::leak(Box::new(unsafe { Library::new(path) }?));
         // SAFETY: the signature of `rtcNewDevice`; without a configuration it takes its defaults.
         let device = unsafe {
             library.get::<unsafe extern "C" fn(*const c_char) -> Handle>(b"rtcNewDevice\0")?(null())
