@@ -201,7 +201,6 @@ fn nobody_waits_to_the_end_for_a_hand_in_that_is_too_slow_by_far_unless_it_had_n
             pub struct PathTracer;
             impl PathTracer {{ pub fn new(_: Settings) -> Self {{ Self }} }}
             impl Integrator for PathTracer {{
-                #[allow(unused)]
                 fn radiance(&self, _: &Scene, _: Ray, sampler: &mut Sampler) -> Rgb {{
                     {sample};
                     Rgb::WHITE * sampler.next_1d()

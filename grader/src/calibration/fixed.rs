@@ -102,12 +102,15 @@ impl Fixed<'_> {
 
     /// True if no draw of correct samples gives an alarm.
     fn is_quiet(&self, samples: u64) -> bool {
-        let mut known = self.quiet.0.lock().unwrap_or_else(PoisonError::into_inner);
-        *known.entry((self.test, samples)).or_insert_with(|| {
-            let right = Fixed { pool: self.truth, bias: 0.0, ..*self };
-            // Other draws than those in which something is to be found.
-            (DRAWS..2 * DRAWS).into_par_iter().all(|number| !right.finds(samples, number))
-        })
+        let known = || self.quiet.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(&quiet) = known().get(&(self.test, samples)) {
+            return quiet;
+        }
+        let right = Fixed { pool: self.truth, bias: 0.0, ..*self };
+        // Other draws than those in which something is to be found.
+        let quiet = (DRAWS..2 * DRAWS).into_par_iter().all(|number| !right.finds(samples, number));
+        known().insert((self.test, samples), quiet);
+        quiet
     }
 
     fn counts(&self, samples: u64, grades: u64, found: u64) -> Counts {

@@ -6,18 +6,12 @@ use rayon::prelude::*;
 use super::super::{Accel, exact};
 use super::{PLACES, Random, Triangle, ball, cube, place};
 
+/// With as many rays as `ARTY_RAYS` says, if it is set: `ARTY_RAYS=100000000 cargo test --release -p arty --lib edges` takes
+/// some 20 s on two cores.
 #[test]
 fn rays_at_edges_and_vertices_do_not_escape() {
-    assert_eq!(escaped(2_500_000), 0);
-}
-
-/// `cargo test --release -p arty --lib -- --ignored --nocapture edges`
-#[test]
-#[ignore = "takes a minute"]
-fn a_hundred_million_rays_at_edges_and_vertices_do_not_escape() {
-    let escaped = escaped(100_000_000);
-    println!("of 10⁸ rays {escaped} escaped");
-    assert_eq!(escaped, 0);
+    let rays = std::env::var("ARTY_RAYS").map_or(2_500_000, |rays| rays.parse().expect("a number of rays"));
+    assert_eq!(escaped(rays), 0, "of {rays}");
 }
 
 /// How many rays of so many get out of a closed mesh, half of them out of one that is tested triangle by triangle, half
