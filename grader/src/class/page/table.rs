@@ -57,7 +57,7 @@ fn line(page: &ClassPage<'_>, columns: Columns, row: &Row, digests: &Digests, di
                 @let points = row.tasks.get(&task.id).copied().flatten();
                 (number(points, shown(points)))
             }
-            td.words { (why(row)) @if let Some(cause) = cause { " " (cause.what) } }
+            td.words { (why(row)) @if let Some(cause) = cause { div { (cause.what) } } }
             @if columns.late {
                 (number(late_by(row), row.lateness.as_ref().map_or_else(String::new, Lateness::late_by_text)))
             }
