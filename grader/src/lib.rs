@@ -36,5 +36,6 @@ pub mod statistics;
 pub mod submission;
 pub mod table;
 pub mod text;
+mod tree_hash;
 mod trial;
 pub mod workspace;

@@ -1,7 +1,10 @@
 //! From a hand-in's source to a program.
 
+mod cargo;
 mod compile;
+mod compiler;
 mod framework;
+mod kept;
 mod scratch;
 
 pub use compile::{BuildFailure, HandInProgram, compile};

@@ -15,7 +15,7 @@ use tempfile::TempDir;
 const PREFIX: &str = "arty-hand-in-";
 
 /// The file that is locked while the folder is in use.
-const IN_USE: &str = "in-use";
+pub(super) const IN_USE: &str = "in-use";
 
 /// A folder without the file is being made, or was when its grader was killed: then it is this old.
 const SURELY_LEFT: Duration = Duration::from_secs(3600);
@@ -55,7 +55,8 @@ fn remove_left_behind(parent: &Path) {
     }
 }
 
-fn is_left(folder: &Path) -> bool {
+/// True if nobody uses a folder any more.
+pub(super) fn is_left(folder: &Path) -> bool {
     let file = folder.join(IN_USE);
     // A pipe of that name would not be opened before somebody writes to it.
     if !std::fs::symlink_metadata(&file).is_ok_and(|metadata| metadata.is_file()) {

@@ -20,9 +20,9 @@ use crate::error::{Error, Result};
 use crate::grade::{Grader, Options};
 use crate::intake::{self, Finding, HandIn};
 use crate::marks::Marks;
-use crate::mutants::hash_tree;
 use crate::policy::{Lateness, Policy, Receipt, the_one_that_counts};
 use crate::reference::Oracle;
+use crate::tree_hash::{NOT_JUDGING, hash_tree};
 use crate::workspace::Workspace;
 
 /// How a class is graded.
@@ -328,7 +328,7 @@ fn hash_of_inputs(workspace: &Workspace, grader: &Grader, options: &Options) -> 
     hasher.update(format!("{:?} {:?}", grader.rubric().tasks, options.only).as_bytes());
     hasher.update(format!("{:?}", grader.oracle().map(Oracle::hash)).as_bytes());
     for path in ["grader/src", "grader/host/program", "scenes"] {
-        hash_tree(&workspace.root().join(path), &mut hasher)?;
+        hash_tree(&workspace.root().join(path), &NOT_JUDGING, &mut hasher)?;
     }
     Ok(hasher.finalize())
 }

@@ -28,6 +28,7 @@ pub(super) fn run(_: &Arguments) -> Result<ExitCode> {
     say("linker", linker);
 
     let framework = Framework::build(&workspace)?;
+    say("framework", framework.dependencies.display());
     say("compiler", format!("{} ({})", framework.toolchain, framework.rustc.display()));
     say(
         "time",

@@ -9,6 +9,7 @@ use super::assignment::Assignment;
 use super::lateness::When;
 use super::least_sandbox::LeastSandbox;
 use super::{export, full_report, watch};
+use crate::build::Framework;
 use crate::error::{Error, Result};
 use crate::export::Export;
 use crate::grade::{Grader, Options};
@@ -83,7 +84,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         export.target(&arguments.out).map_or(Ok(()), |file| check_writable(&file))?;
     }
     let mut progress = if arguments.quiet { Progress::hidden() } else { Progress::new() };
-    if !workspace.framework_target().exists() {
+    if Framework::is_first(&workspace) {
         progress
             .say("building the framework that hand-ins are linked against: once, and it takes a minute …");
     }

@@ -104,7 +104,7 @@ impl Grader {
         let left_out = plan::left_out(&scenes);
         let provenance = BTreeMap::from([
             ("grader".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
-            ("framework".to_owned(), framework.hash()?),
+            ("framework".to_owned(), framework.hash.clone()),
             ("rubric".to_owned(), hash_of_file(&rubric_file)?),
             ("references".to_owned(), hash_of_references(&scenes)),
             ("seed".to_owned(), options.seed.to_string()),

@@ -13,6 +13,7 @@ use crate::error::{Error, Result};
 use crate::grade::{Grader, Options};
 use crate::report::{Report, Verdict};
 use crate::submission::Submission;
+use crate::tree_hash::{NOT_JUDGING, hash_tree};
 use crate::workspace::Workspace;
 
 /// What one grade of one variant has found: a line of the ledger.
@@ -150,25 +151,6 @@ fn record(key: String, variant: &Variant, seed: u64, report: &Report) -> Record 
     }
 }
 
-/// Folders of what neither makes nor judges an image.
-const IRRELEVANT: [&str; 15] = [
-    "algorithms",
-    "calibration",
-    "class",
-    "cli",
-    "commands",
-    "convergence",
-    "diagnosis",
-    "export",
-    "handout",
-    "image_error",
-    "intake",
-    "mutants",
-    "pictures",
-    "policy",
-    "report",
-];
-
 /// Over the rubric, scenes and references, the framework and all of the grader but this command.
 pub fn hash_of_inputs(workspace: &Workspace, assignment: &str) -> Result<blake3::Hash> {
     let root = workspace.root();
@@ -176,29 +158,8 @@ pub fn hash_of_inputs(workspace: &Workspace, assignment: &str) -> Result<blake3:
     for path in
         ["Cargo.lock", "Cargo.toml", "skeleton/src", "grader/host", "grader/src", "scenes", "references"]
     {
-        hash_tree(&root.join(path), &mut hasher)?;
+        hash_tree(&root.join(path), &NOT_JUDGING, &mut hasher)?;
     }
-    hash_tree(&workspace.assignment(assignment).join("rubric.yml"), &mut hasher)?;
+    hash_tree(&workspace.assignment(assignment).join("rubric.yml"), &[], &mut hasher)?;
     Ok(hasher.finalize())
-}
-
-/// Adds a file, or all files below a folder, but for what neither makes nor judges an image.
-pub(crate) fn hash_tree(path: &Path, hasher: &mut blake3::Hasher) -> Result<()> {
-    let name = path.file_name().unwrap_or_default();
-    let trouble = |error: std::io::Error| Error::file(path, error);
-    if !path.is_dir() {
-        hasher.update(name.as_encoded_bytes());
-        hasher.update(blake3::hash(&std::fs::read(path).map_err(trouble)?).as_bytes());
-        return Ok(());
-    }
-    if IRRELEVANT.iter().any(|&other| name == other) {
-        return Ok(());
-    }
-    let mut entries = std::fs::read_dir(path)
-        .map_err(trouble)?
-        .map(|entry| entry.map(|entry| entry.path()))
-        .collect::<std::io::Result<Vec<_>>>()
-        .map_err(trouble)?;
-    entries.sort();
-    entries.iter().try_for_each(|entry| hash_tree(entry, hasher))
 }

@@ -9,7 +9,6 @@ mod outcome;
 mod table;
 mod variant;
 
-pub(crate) use ledger::hash_tree;
 pub use ledger::{Ledger, Record, hash_of_inputs};
 pub use outcome::Outcome;
 pub use table::table;

@@ -39,7 +39,7 @@ impl Oracle {
             return Ok(None);
         }
         let mut hasher = blake3::Hasher::new();
-        hasher.update(framework.hash()?.as_bytes());
+        hasher.update(framework.hash.as_bytes());
         hasher.update(include_bytes!("make.rs"));
         hasher.update(recipe().as_bytes());
         let submission = Submission::read(&path)?;
@@ -48,7 +48,7 @@ impl Oracle {
             submission,
             framework: framework.clone(),
             hash: hasher.finalize(),
-            folder: workspace.framework_target().join("answers"),
+            folder: framework.answers.clone(),
             program: Mutex::default(),
         }))
     }

@@ -1,0 +1,255 @@
+//! Built frameworks, kept for all checkouts of a user.
+//!
+//! Each lies in a folder named by the hash of what it was built from. A checkout whose framework was built before, at
+//! another place or before a `cargo clean`, needs no Cargo. A folder is whole from the moment that it has its name, and is
+//! locked by all who use it; of those that nobody uses only the last few stay.
+
+use std::collections::BTreeMap;
+use std::fs::{DirEntry, File, OpenOptions};
+use std::io::{Error, Result};
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use etcetera::BaseStrategy;
+use serde::{Deserialize, Serialize};
+
+use super::cargo::Libraries;
+use super::scratch::{IN_USE, is_left};
+
+/// How many stay, the one in use included.
+const MOST: usize = 4;
+
+/// How names of folders begin that are not whole yet.
+const BEGUN: &str = "begun-";
+
+/// The folder for frameworks of a user who has one for caches, which it is not sure that one can write to.
+pub(super) fn shelf() -> Option<PathBuf> {
+    Some(etcetera::choose_base_strategy().ok()?.cache_dir().join("arty").join("frameworks"))
+}
+
+/// A framework, kept as long as this lives.
+#[derive(Debug)]
+pub(super) struct Kept {
+    folder: PathBuf,
+    contents: Contents,
+    _in_use: File,
+}
+
+/// What is in a folder.
+#[derive(Debug, Serialize, Deserialize)]
+struct Contents {
+    arty: PathBuf,
+    host: PathBuf,
+    /// Over these two.
+    hash: String,
+    /// Sizes of all libraries, in bytes.
+    sizes: BTreeMap<PathBuf, u64>,
+}
+
+const CONTENTS: &str = "contents.json";
+
+impl Kept {
+    /// Looks for a framework; `None` if it is not there, or not as it was put there.
+    pub(super) fn find(shelf: &Path, key: &str) -> Option<Self> {
+        let folder = shelf.join(key);
+        let in_use = OpenOptions::new().write(true).open(folder.join(IN_USE)).ok()?;
+        // Who removes it has it to himself.
+        in_use.try_lock_shared().ok()?;
+        let contents: Contents = serde_json::from_slice(&std::fs::read(folder.join(CONTENTS)).ok()?).ok()?;
+        let kept = Self { folder, contents, _in_use: in_use };
+        let size = |name: &PathBuf| Some(std::fs::metadata(kept.libraries().join(name)).ok()?.len());
+        let whole = kept.contents.sizes.iter().all(|(name, &bytes)| size(name) == Some(bytes));
+        if !whole || hash(&kept.arty(), &kept.host()).ok()? != kept.contents.hash {
+            return None;
+        }
+        // So that those used last are known.
+        let _ = kept._in_use.set_modified(SystemTime::now());
+        Some(kept)
+    }
+
+    /// Keeps what Cargo has built, for [`find`](Self::find), in place of what is damaged or has not been used for long.
+    pub(super) fn keep(shelf: &Path, key: &str, built: &Libraries) -> Result<()> {
+        std::fs::create_dir_all(shelf)?;
+        let folder = tempfile::Builder::new().prefix(BEGUN).tempdir_in(shelf)?;
+        let in_use = File::create(folder.path().join(IN_USE))?;
+        in_use.try_lock()?;
+        std::fs::create_dir(folder.path().join(LIBRARIES))?;
+        let mut sizes = BTreeMap::new();
+        for library in &built.all {
+            let name = name_of(library)?;
+            let copy = folder.path().join(LIBRARIES).join(&name);
+            // Cargo links its files likewise, and replaces them as a whole.
+            std::fs::hard_link(library, &copy).or_else(|_| std::fs::copy(library, &copy).map(drop))?;
+            sizes.insert(name, std::fs::metadata(&copy)?.len());
+        }
+        let contents = Contents {
+            arty: name_of(&built.arty)?,
+            host: name_of(&built.host)?,
+            hash: hash(&built.arty, &built.host)?,
+            sizes,
+        };
+        std::fs::write(folder.path().join(CONTENTS), serde_json::to_vec_pretty(&contents)?)?;
+        let place = shelf.join(key);
+        if is_left(&place) {
+            std::fs::remove_dir_all(&place)?;
+        }
+        // Some systems move no folder with an open file.
+        drop(in_use);
+        std::fs::rename(folder.path(), &place)?;
+        drop(folder.keep());
+        remove_old(shelf);
+        Ok(())
+    }
+
+    /// The library `arty`.
+    pub(super) fn arty(&self) -> PathBuf {
+        self.libraries().join(&self.contents.arty)
+    }
+
+    /// The library `host`.
+    pub(super) fn host(&self) -> PathBuf {
+        self.libraries().join(&self.contents.host)
+    }
+
+    /// The folder with both and all that they need.
+    pub(super) fn libraries(&self) -> PathBuf {
+        self.folder.join(LIBRARIES)
+    }
+
+    /// Over these two.
+    pub(super) fn hash(&self) -> &str {
+        &self.contents.hash
+    }
+
+    /// The folder with all that belongs to this framework.
+    pub(super) fn folder(&self) -> &Path {
+        &self.folder
+    }
+}
+
+const LIBRARIES: &str = "libraries";
+
+fn name_of(file: &Path) -> Result<PathBuf> {
+    file.file_name().map(PathBuf::from).ok_or_else(|| Error::other("a library without a name"))
+}
+
+/// BLAKE3 over two libraries.
+pub(super) fn hash(arty: &Path, host: &Path) -> Result<String> {
+    let mut hasher = blake3::Hasher::new();
+    for library in [arty, host] {
+        hasher.update(&std::fs::read(library)?);
+    }
+    Ok(hasher.finalize().to_hex().to_string())
+}
+
+/// Removes what nobody uses, but for those used last; also what was begun by graders that are gone.
+fn remove_old(shelf: &Path) {
+    let folders = || std::fs::read_dir(shelf).into_iter().flatten().flatten();
+    let is_begun = |entry: &DirEntry| entry.file_name().to_string_lossy().starts_with(BEGUN);
+    let mut whole: Vec<(SystemTime, PathBuf)> = folders()
+        .filter(|entry| !is_begun(entry))
+        .filter_map(|entry| Some((entry.path().join(IN_USE).metadata().ok()?.modified().ok()?, entry.path())))
+        .collect();
+    whole.sort_by(|a, b| b.cmp(a));
+    let old = whole.into_iter().skip(MOST).map(|(_, folder)| folder);
+    for folder in folders().filter(is_begun).map(|entry| entry.path()).chain(old) {
+        if is_left(&folder) {
+            let _ = std::fs::remove_dir_all(folder);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+
+    /// Two libraries, which say what they are told.
+    fn built(folder: &Path, says: &str) -> Libraries {
+        let file = |name: &str| {
+            let file = folder.join(name);
+            std::fs::write(&file, format!("{name}: {says}")).expect("it can be written");
+            file
+        };
+        let (arty, host) = (file("libarty.rlib"), file("libhost.rlib"));
+        Libraries { all: vec![arty.clone(), host.clone(), file("libglam.rlib")], arty, host }
+    }
+
+    fn keep(shelf: &Path, key: &str) -> Result<()> {
+        let target = tempfile::tempdir().expect("a temporary folder");
+        Kept::keep(shelf, key, &built(target.path(), key))
+    }
+
+    #[test]
+    fn what_is_kept_is_found_with_all_that_it_needs_and_not_under_another_key() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let shelf = folder.path().join("of/this/user");
+        keep(&shelf, "one").expect("it can be kept");
+        assert!(Kept::find(&shelf, "another").is_none());
+        let kept = Kept::find(&shelf, "one").expect("it was kept");
+        let text = |file: PathBuf| std::fs::read_to_string(file).expect("it is there");
+        assert_eq!(text(kept.arty()), "libarty.rlib: one");
+        assert_eq!(text(kept.host()), "libhost.rlib: one");
+        assert_eq!(text(kept.libraries().join("libglam.rlib")), "libglam.rlib: one");
+    }
+
+    #[test]
+    fn what_is_damaged_is_not_found_and_is_replaced() {
+        for (name, damage) in [
+            ("libarty.rlib", Some("libarty.rlib: won")),
+            ("libglam.rlib", Some("cut")),
+            ("libglam.rlib", None),
+        ] {
+            let shelf = tempfile::tempdir().expect("a temporary folder");
+            keep(shelf.path(), "one").expect("it can be kept");
+            let file = shelf.path().join("one").join(LIBRARIES).join(name);
+            match damage {
+                Some(text) => std::fs::write(file, text).expect("it can be written"),
+                None => std::fs::remove_file(file).expect("it is there"),
+            }
+            assert!(Kept::find(shelf.path(), "one").is_none(), "{name} {damage:?}");
+            keep(shelf.path(), "one").expect("it can be kept");
+            assert!(Kept::find(shelf.path(), "one").is_some());
+        }
+    }
+
+    #[test]
+    fn only_the_last_used_stay_and_those_in_use() {
+        let shelf = tempfile::tempdir().expect("a temporary folder");
+        let shelf = shelf.path();
+        let used = |key: &str, seconds: u64| {
+            let file =
+                OpenOptions::new().write(true).open(shelf.join(key).join(IN_USE)).expect("it is there");
+            file.set_modified(SystemTime::UNIX_EPOCH + Duration::from_secs(seconds)).expect("it has a time");
+        };
+        keep(shelf, "in use").expect("it can be kept");
+        let in_use = Kept::find(shelf, "in use");
+        used("in use", 0);
+        for number in 0..=MOST {
+            keep(shelf, &number.to_string()).expect("it can be kept");
+            used(&number.to_string(), 100 - number as u64);
+        }
+        keep(shelf, "last").expect("it can be kept");
+        let there = |key: &str| Kept::find(shelf, key).is_some();
+        assert!(there("in use") && there("0") && there("last"));
+        assert!(!there(&MOST.to_string()), "the oldest");
+        drop(in_use);
+        keep(shelf, "very last").expect("it can be kept");
+        assert_eq!(std::fs::read_dir(shelf).expect("it is there").count(), MOST);
+    }
+
+    #[test]
+    fn what_was_begun_by_a_grader_that_is_gone_is_removed() {
+        let shelf = tempfile::tempdir().expect("a temporary folder");
+        let begun = shelf.path().join("begun-1");
+        std::fs::create_dir(&begun).expect("it can be made");
+        let lock = File::create(begun.join(IN_USE)).expect("it can be written");
+        lock.lock().expect("nobody else has it");
+        keep(shelf.path(), "one").expect("it can be kept");
+        assert!(begun.exists(), "its grader is still there");
+        drop(lock);
+        keep(shelf.path(), "two").expect("it can be kept");
+        assert!(!begun.exists());
+    }
+}
