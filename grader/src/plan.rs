@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use arty::integrator::Technique;
 
 use crate::checks::{JudgedScene, why_it_does_not_tell, why_no_closed_form, why_no_furnace};
-use crate::report::LeftOut;
+use crate::report::{LeftOut, is_hidden};
 use crate::rubric::{CheckKind, CheckSpec, Hits};
 
 /// A kind of check in a scene.
@@ -39,18 +39,19 @@ pub fn for_scene(judged: &JudgedScene) -> Vec<Entry> {
     kinds.flat_map(|check| techniques(check).iter().map(move |&technique| entry(check, technique))).collect()
 }
 
-/// Why a check of a rubric is left out; `None` if it is not. Its scene is `None` if it makes its own.
+/// Why a check of a rubric is left out; `None` if it is not. Its scene is `None` if it makes its own, or if only staff have it.
 pub fn why_left_out(spec: &CheckSpec, judged: Option<&JudgedScene>, has_solution: bool) -> Option<String> {
     match judged {
         Some(judged) => why_not(spec, judged),
-        None => (needs_solution(spec) && !has_solution)
+        None if spec.check.needs_scene() => Some("its scene is not here".to_owned()),
+        None => (needs_staff(spec) && !has_solution)
             .then(|| "there is no solution here to compare with".to_owned()),
     }
 }
 
 /// True of a check that only staff can run. Where it is left out for that, its points are left out, too.
-pub fn needs_solution(spec: &CheckSpec) -> bool {
-    spec.check == CheckKind::HiddenVariants
+pub fn needs_staff(spec: &CheckSpec) -> bool {
+    is_hidden(spec.check, &spec.scene)
 }
 
 /// What is left out in all scenes of a grade, and why.

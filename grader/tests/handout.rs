@@ -150,6 +150,22 @@ fn a_handout_builds_and_grades_by_itself() {
     let said = format!("{} rest on checks that only your tutors can run", points.elsewhere);
     assert!(text(&right.stdout).contains(&said), "{}", text(&right.stdout));
 
+    // A scene that the rubric names and only staff have.
+    let rubric = folder.join("assignments/05-nee-mis/rubric.yml");
+    let known = std::fs::read_to_string(&rubric).expect("it is there");
+    let first = "- { check: mean-bias, scene: three_points,";
+    let cellar = "- { check: mean-bias, scene: hidden/cellar, technique: nee, max_bounces: 1 }";
+    let hidden = known.replacen(first, &format!("{cellar}\n      {first}"), 1);
+    assert_ne!(hidden, known);
+    std::fs::write(&rubric, hidden).expect("it can be written");
+    let right = cargo(&folder, &["grade", &file, "--no-report"]);
+    assert_eq!(right.status.code(), Some(0), "{}", text(&right.stderr));
+    let graded = report(&folder);
+    let cellar = graded.left_out.iter().find(|left_out| left_out.scene == "hidden/cellar");
+    assert_eq!(cellar.map(|left_out| left_out.why.as_str()), Some("its scene is not here"));
+    assert!(graded.points.elsewhere > points.elsewhere, "{:?}", graded.points);
+    assert_eq!(graded.points.earned + graded.points.elsewhere, points.automatic_max, "{:?}", graded.points);
+
     // No test of the grader is there that would need the solution.
     let tests = cargo(&folder, &["test", "-p", "grader", "-p", "host"]);
     assert_eq!(tests.status.code(), Some(0), "{}", text(&tests.stderr));

@@ -9,16 +9,20 @@ use super::select::Selected;
 use crate::checks::JudgedScene;
 use crate::error::{Error, Result};
 use crate::reference;
+use crate::report::is_hidden_name;
 use crate::workspace::Workspace;
 
-/// The scenes that checks need, with their references.
+/// The scenes that checks need, with their references; where there is no solution, without those that only staff have.
 pub(super) fn load_scenes(
     workspace: &Workspace,
     selected: &Selected<'_>,
 ) -> Result<BTreeMap<String, JudgedScene>> {
     let mut scenes = BTreeMap::new();
+    let is_staff = workspace.solution_file().is_file();
+    let is_elsewhere =
+        |scene: &str| !is_staff && is_hidden_name(scene) && !workspace.scene_file(scene).exists();
     for (_, spec) in selected.iter().filter(|(_, spec)| spec.check.needs_scene()) {
-        if !scenes.contains_key(&spec.scene) {
+        if !(scenes.contains_key(&spec.scene) || is_elsewhere(&spec.scene)) {
             scenes.insert(spec.scene.clone(), load_scene(workspace, &spec.scene)?);
         }
     }

@@ -45,7 +45,7 @@ pub(super) fn mark(
         let id = spec.id();
         if left_out.iter().any(|left_out| left_out.check == id) {
             // A check that means nothing here is worth nothing; one that only staff can run keeps its worth.
-            if plan::needs_solution(spec) {
+            if plan::needs_staff(spec) {
                 total += spec.weight;
                 elsewhere += spec.weight;
             }

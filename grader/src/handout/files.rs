@@ -22,7 +22,7 @@ const GIVEN: [&str; 11] = [
     "references",
 ];
 
-/// What of these stays with the staff.
+/// What of these stays with the staff, if it is there.
 const KEPT_BACK: [&str; 2] = ["scenes/hidden", "references/hidden"];
 
 /// Sources of the grader that are modules of tests.
@@ -61,6 +61,7 @@ pub(super) fn given(workspace: &Workspace, assignment: &str) -> Result<Vec<(Path
     for name in GIVEN.into_iter().map(PathBuf::from).chain(OF_ASSIGNMENT.map(|name| own.join(name))) {
         collect(root, &name, &mut files)?;
     }
+    files.retain(|(path, _)| !KEPT_BACK.iter().any(|kept| path.starts_with(kept)));
     for name in IF_THERE.map(|name| own.join(name)) {
         if root.join(&name).is_file() {
             collect(root, &name, &mut files)?;
@@ -95,7 +96,7 @@ fn without_tests(source: &mut Vec<u8>) {
     }
 }
 
-/// What grading takes: the same with the solution, which some checks compare with.
+/// What grading takes: the same with the solution, which some checks compare with, and with what stays with the staff.
 pub(super) fn for_grading(workspace: &Workspace, assignment: &str) -> Result<Vec<(PathBuf, Vec<u8>)>> {
     let root = workspace.root();
     let mut files = given(workspace, assignment)?;
@@ -107,14 +108,16 @@ pub(super) fn for_grading(workspace: &Workspace, assignment: &str) -> Result<Vec
     {
         collect(root, name, &mut files)?;
     }
+    for name in KEPT_BACK.map(Path::new) {
+        if root.join(name).is_dir() {
+            collect(root, name, &mut files)?;
+        }
+    }
     Ok(files)
 }
 
 /// Adds a file, or all files below a folder that are not hidden.
 fn collect(root: &Path, name: &Path, files: &mut Vec<(PathBuf, Vec<u8>)>) -> Result<()> {
-    if KEPT_BACK.iter().any(|kept| name == Path::new(kept)) {
-        return Ok(());
-    }
     let path = root.join(name);
     // Modules that are only compiled for tests.
     let is_test = name.starts_with("grader") && TEST_FILES.iter().any(|file| name.ends_with(file));

@@ -81,8 +81,8 @@ pub fn for_student(report: &Report, path: Option<&str>) -> Result<(Report, Editi
     Ok((serde_json::from_value(value).map_err(trouble)?, edition))
 }
 
-/// True if students do not get to know of this check.
-fn is_hidden(check: CheckKind, scene: &str) -> bool {
+/// True of checks that students do not get to know of: they can be run by staff only.
+pub fn is_hidden(check: CheckKind, scene: &str) -> bool {
     check == CheckKind::HiddenVariants || is_hidden_name(scene)
 }
 

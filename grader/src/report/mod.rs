@@ -25,7 +25,7 @@ use crate::sandbox::{Layers, Level, both, missing};
 use crate::scan::Finding;
 use crate::statistics::bias::Comparison;
 
-pub use edition::{Edition, for_student, is_hidden_name};
+pub use edition::{Edition, for_student, is_hidden, is_hidden_name};
 pub use page::{Readers, page, pages_beside, pictures_beside, remove_pages, write_pages};
 pub(crate) use page::{document, plots};
 pub use pictures::{ImageError, Picture};
