@@ -17,10 +17,10 @@ fn the_solution_is_compiled_again_only_if_what_was_kept_is_damaged() {
     compile_time();
     assert_eq!(compile_time(), Duration::ZERO, "it was kept");
 
-    let folder = &framework.answers;
+    let folder = workspace.framework_target().join("answers");
     let kept = || -> Vec<_> {
         let entries =
-            std::fs::read_dir(folder).expect("it is there").map(|entry| entry.expect("it is").path());
+            std::fs::read_dir(&folder).expect("it is there").map(|entry| entry.expect("it is").path());
         entries.filter(|path| path.extension().is_some_and(|extension| extension == "program")).collect()
     };
     let [program] = &kept()[..] else { panic!("one program is kept, not {}", kept().len()) };

@@ -83,6 +83,10 @@ pub fn compile(
         Ok(program) => return Ok(Ok(program)),
         Err(failure) => failure,
     };
+    if !framework.is_there() {
+        let folder = framework.dependencies.display();
+        return Err(Error::Harness(format!("the framework's libraries are gone from {folder}: grade again")));
+    }
     // No line of the hand-in is to blame: is it the machine? A missing linker, a full disk?
     if failure.line.is_some() || compile_once(framework, EMPTY_HAND_IN, limits, true)?.is_ok() {
         return Ok(Err(failure));
@@ -91,7 +95,10 @@ pub fn compile(
     match compile_once(framework, EMPTY_HAND_IN, limits, false)? {
         Ok(_) => compile_once(framework, source, limits, false),
         Err(BuildFailure { messages, .. }) => {
-            Err(Error::Harness(format!("not even an empty hand-in compiles here:\n{messages}")))
+            let folder = framework.dependencies.display();
+            Err(Error::Harness(format!(
+                "not even an empty hand-in compiles here, against the libraries in {folder}:\n{messages}"
+            )))
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The compiler that Cargo would use.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use crate::error::{Error, Result};
@@ -11,15 +11,15 @@ pub(super) struct Compiler {
     pub(super) rustc: PathBuf,
     /// The folder of its libraries.
     pub(super) sysroot: PathBuf,
-    /// All that it says of its version, name and version on the first line.
+    /// All that it says of its version; name and version stand on the first line.
     pub(super) version: String,
 }
 
 impl Compiler {
-    /// Asks for it.
-    pub(super) fn find() -> Result<Self> {
+    /// Asks for the one of a checkout, which may have its own.
+    pub(super) fn of(root: &Path) -> Result<Self> {
         // Both at once: rustup's stand-in takes its time to find out whom to ask.
-        let (version, sysroot) = rayon::join(|| ask("-vV"), || ask("--print=sysroot"));
+        let (version, sysroot) = rayon::join(|| ask(root, "-vV"), || ask(root, "--print=sysroot"));
         let (version, sysroot) = (version?, PathBuf::from(sysroot?));
         // Past the one that only looks up which compiler is meant.
         let rustc = Some(sysroot.join("bin").join(format!("rustc{}", std::env::consts::EXE_SUFFIX)))
@@ -35,12 +35,17 @@ impl Compiler {
 }
 
 /// What rustc answers to a question about itself.
-fn ask(question: &str) -> Result<String> {
+fn ask(root: &Path, question: &str) -> Result<String> {
+    let trouble = |what: &str| Error::Harness(format!("rustc could not be run: {what}"));
     let output = Command::new(named())
         .arg(question)
+        .current_dir(root)
         .stdin(Stdio::null())
         .output()
-        .map_err(|error| Error::Harness(format!("rustc could not be run: {error}")))?;
+        .map_err(|error| trouble(&error.to_string()))?;
+    if !output.status.success() {
+        return Err(trouble(String::from_utf8_lossy(&output.stderr).trim()));
+    }
     Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
 

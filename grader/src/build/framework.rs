@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::cargo::{self, Libraries};
+use super::cargo;
 use super::compiler::Compiler;
 use super::kept::{self, Kept};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::sandbox::Grants;
 use crate::tree_hash::hash_tree;
 use crate::workspace::Workspace;
@@ -22,10 +22,8 @@ pub struct Framework {
     pub host: PathBuf,
     /// The folder with these and all that they need.
     pub dependencies: PathBuf,
-    /// BLAKE3 over the two libraries.
+    /// BLAKE3 over all that they are built from.
     pub hash: String,
-    /// The folder for what is found out with it and need not be found out again.
-    pub answers: PathBuf,
     /// The compiler, as it names itself.
     pub toolchain: String,
     /// The compiler's program.
@@ -33,7 +31,7 @@ pub struct Framework {
     /// What the compiler needs to be granted.
     pub grants: Grants,
     /// Nobody removes it as long as this is there.
-    _kept: Option<Arc<Kept>>,
+    kept: Option<Arc<Kept>>,
 }
 
 impl Framework {
@@ -42,22 +40,25 @@ impl Framework {
     /// # Errors
     /// If it does not build, or if there is no compiler.
     pub fn build(workspace: &Workspace) -> Result<Self> {
-        let compiler = Compiler::find()?;
-        let (shelf, key) = (kept::shelf(), key(workspace, &compiler)?);
+        let compiler = Compiler::of(workspace.root())?;
+        let (shelf, key) = (kept::shelf(), key_of(workspace, &compiler)?);
         let find = || Kept::find(shelf.as_deref()?, &key);
         if let Some(kept) = find() {
-            return Ok(Self::kept(kept, &compiler));
+            return Ok(Self::of_kept(kept, key, &compiler));
         }
-        let built = cargo::build(workspace)?;
-        // Unless somebody has saved another source meanwhile.
-        if let Some(shelf) =
-            shelf.as_deref().filter(|_| self::key(workspace, &compiler).is_ok_and(|now| now == key))
+        let built = cargo::build(workspace, &compiler, &key)?;
+        // Somebody may have saved another source meanwhile, or have been faster.
+        if let Some(shelf) = &shelf
+            && key_of(workspace, &compiler).is_ok_and(|now| now == key)
+            && find().is_none()
         {
             // Who cannot keep it uses what Cargo has built.
             let _ = Kept::keep(shelf, &key, &built);
         }
-        find()
-            .map_or_else(|| Self::built(built, workspace, &compiler), |kept| Ok(Self::kept(kept, &compiler)))
+        Ok(match find() {
+            Some(kept) => Self::of_kept(kept, key, &compiler),
+            None => Self::new(built.arty.clone(), built.host.clone(), built.dependencies(), key, &compiler),
+        })
     }
 
     /// True if none was ever built for this user or in this checkout, so that it is worth a word that it takes its time.
@@ -65,74 +66,45 @@ impl Framework {
         !workspace.framework_target().exists() && !kept::shelf().is_some_and(|shelf| shelf.exists())
     }
 
-    fn kept(kept: Kept, compiler: &Compiler) -> Self {
-        Self {
-            arty: kept.arty(),
-            host: kept.host(),
-            dependencies: kept.libraries(),
-            hash: kept.hash().to_owned(),
-            answers: kept.folder().join(ANSWERS),
-            toolchain: compiler.name().to_owned(),
-            rustc: compiler.rustc.clone(),
-            grants: Grants::of_toolchain(&compiler.rustc, &compiler.sysroot, &[&kept.libraries()]),
-            _kept: Some(Arc::new(kept)),
-        }
+    fn of_kept(kept: Kept, key: String, compiler: &Compiler) -> Self {
+        let framework = Self::new(kept.arty(), kept.host(), kept.libraries(), key, compiler);
+        Self { kept: Some(Arc::new(kept)), ..framework }
     }
 
-    fn built(
-        Libraries { arty, host, .. }: Libraries,
-        workspace: &Workspace,
-        compiler: &Compiler,
-    ) -> Result<Self> {
-        // Cargo names the copy of `host` beside the profile's programs; the libraries it needs lie in `deps`.
-        let dependencies = dependencies_folder(&arty);
+    fn new(arty: PathBuf, host: PathBuf, dependencies: PathBuf, key: String, compiler: &Compiler) -> Self {
         let folders = [Some(dependencies.as_path()), arty.parent(), host.parent()];
         let folders: Vec<&Path> = folders.into_iter().flatten().collect();
-        Ok(Self {
-            hash: kept::hash(&arty, &host)
-                .map_err(|error| Error::Harness(format!("the framework cannot be read: {error}")))?,
-            answers: workspace.framework_target().join(ANSWERS),
+        Self {
+            hash: key,
             toolchain: compiler.name().to_owned(),
             rustc: compiler.rustc.clone(),
             grants: Grants::of_toolchain(&compiler.rustc, &compiler.sysroot, &folders),
             arty,
             host,
             dependencies,
-            _kept: None,
-        })
+            kept: None,
+        }
+    }
+
+    /// True as long as nobody has removed the libraries.
+    pub(super) fn is_there(&self) -> bool {
+        self.arty.is_file() && self.host.is_file() && self.kept.as_ref().is_none_or(|kept| kept.is_whole())
     }
 }
 
-/// The folder for answers, beside the libraries.
-const ANSWERS: &str = "answers";
+/// What of `skeleton/src` has no part in the libraries: the student's file, the program.
+const NO_PART: [&str; 3] = ["algorithms", "cli", "main.rs"];
 
-/// What has no part in the libraries: the student's file, the programs, tests.
-const NO_PART: [&str; 4] = ["algorithms", "cli", "main.rs", "tests"];
-
-/// Over all that decides what Cargo builds: sources and versions of dependencies, settings, the compiler.
-fn key(workspace: &Workspace, compiler: &Compiler) -> Result<String> {
+/// Over all that decides what Cargo builds: sources, versions of dependencies, settings, the compiler.
+fn key_of(workspace: &Workspace, compiler: &Compiler) -> Result<String> {
     let mut hasher = blake3::Hasher::new();
     hasher.update(cargo::ARGUMENTS.join(" ").as_bytes());
     hasher.update(compiler.version.as_bytes()).update(compiler.sysroot.as_os_str().as_encoded_bytes());
-    let own = [
-        "Cargo.toml",
-        "Cargo.lock",
-        ".cargo/config.toml",
-        "skeleton/Cargo.toml",
-        "skeleton/src",
-        "grader/host/Cargo.toml",
-        "grader/host/src",
-    ];
-    let settings = etcetera::home_dir().ok().map(|home| home.join(".cargo"));
-    let settings = std::env::var_os("CARGO_HOME").map(PathBuf::from).or(settings);
-    let settings = settings.map(|folder| folder.join("config.toml")).filter(|file| file.is_file());
-    for path in own.iter().map(|name| workspace.root().join(name)).chain(settings) {
-        hash_tree(&path, &NO_PART, &mut hasher)?;
+    let others =
+        ["Cargo.toml", "Cargo.lock", "skeleton/Cargo.toml", "grader/host/Cargo.toml", "grader/host/src"];
+    for path in others {
+        hash_tree(&workspace.root().join(path), &[], &mut hasher)?;
     }
+    hash_tree(&workspace.root().join("skeleton/src"), &NO_PART, &mut hasher)?;
     Ok(hasher.finalize().to_hex().to_string())
-}
-
-fn dependencies_folder(library: &Path) -> PathBuf {
-    let folder = library.parent().unwrap_or(Path::new("."));
-    if folder.ends_with("deps") { folder.to_owned() } else { folder.join("deps") }
 }

@@ -14,7 +14,7 @@ use etcetera::BaseStrategy;
 use serde::{Deserialize, Serialize};
 
 use super::cargo::Libraries;
-use super::scratch::{IN_USE, is_left};
+use super::scratch::{IN_USE, remove_unused};
 
 /// How many stay, the one in use included.
 const MOST: usize = 4;
@@ -22,8 +22,13 @@ const MOST: usize = 4;
 /// How names of folders begin that are not whole yet.
 const BEGUN: &str = "begun-";
 
-/// The folder for frameworks of a user who has one for caches, which it is not sure that one can write to.
+/// The folder for the frameworks of a user; it may be one that nobody can write to.
 pub(super) fn shelf() -> Option<PathBuf> {
+    // Root's own folders are closed to the user that a hand-in is compiled by.
+    #[cfg(unix)]
+    if rustix::process::geteuid().is_root() {
+        return Some(PathBuf::from("/var/cache/arty/frameworks"));
+    }
     Some(etcetera::choose_base_strategy().ok()?.cache_dir().join("arty").join("frameworks"))
 }
 
@@ -32,7 +37,7 @@ pub(super) fn shelf() -> Option<PathBuf> {
 pub(super) struct Kept {
     folder: PathBuf,
     contents: Contents,
-    _in_use: File,
+    in_use: File,
 }
 
 /// What is in a folder.
@@ -40,37 +45,39 @@ pub(super) struct Kept {
 struct Contents {
     arty: PathBuf,
     host: PathBuf,
-    /// Over these two.
-    hash: String,
     /// Sizes of all libraries, in bytes.
     sizes: BTreeMap<PathBuf, u64>,
 }
 
 const CONTENTS: &str = "contents.json";
+const LIBRARIES: &str = "libraries";
 
 impl Kept {
     /// Looks for a framework; `None` if it is not there, or not as it was put there.
     pub(super) fn find(shelf: &Path, key: &str) -> Option<Self> {
         let folder = shelf.join(key);
-        let in_use = OpenOptions::new().write(true).open(folder.join(IN_USE)).ok()?;
-        // Who removes it has it to himself.
-        in_use.try_lock_shared().ok()?;
-        let contents: Contents = serde_json::from_slice(&std::fs::read(folder.join(CONTENTS)).ok()?).ok()?;
-        let kept = Self { folder, contents, _in_use: in_use };
-        let size = |name: &PathBuf| Some(std::fs::metadata(kept.libraries().join(name)).ok()?.len());
-        let whole = kept.contents.sizes.iter().all(|(name, &bytes)| size(name) == Some(bytes));
-        if !whole || hash(&kept.arty(), &kept.host()).ok()? != kept.contents.hash {
-            return None;
-        }
+        // For both, since some file systems lock for reading only who may read.
+        let in_use = OpenOptions::new().read(true).write(true).open(folder.join(IN_USE)).ok()?;
+        // Who makes or removes it does not take long.
+        in_use.lock_shared().ok()?;
+        let contents = serde_json::from_slice(&std::fs::read(folder.join(CONTENTS)).ok()?).ok()?;
+        let kept = Self { folder, contents, in_use };
         // So that those used last are known.
-        let _ = kept._in_use.set_modified(SystemTime::now());
-        Some(kept)
+        let _ = kept.in_use.set_modified(SystemTime::now());
+        kept.is_whole().then_some(kept)
+    }
+
+    /// True if all libraries are there, and as large as they were.
+    pub(super) fn is_whole(&self) -> bool {
+        let size = |name: &PathBuf| Some(std::fs::metadata(self.libraries().join(name)).ok()?.len());
+        self.contents.sizes.iter().all(|(name, &bytes)| size(name) == Some(bytes))
     }
 
     /// Keeps what Cargo has built, for [`find`](Self::find), in place of what is damaged or has not been used for long.
     pub(super) fn keep(shelf: &Path, key: &str, built: &Libraries) -> Result<()> {
         std::fs::create_dir_all(shelf)?;
         let folder = tempfile::Builder::new().prefix(BEGUN).tempdir_in(shelf)?;
+        open_to_others(folder.path())?;
         let in_use = File::create(folder.path().join(IN_USE))?;
         in_use.try_lock()?;
         std::fs::create_dir(folder.path().join(LIBRARIES))?;
@@ -82,20 +89,14 @@ impl Kept {
             std::fs::hard_link(library, &copy).or_else(|_| std::fs::copy(library, &copy).map(drop))?;
             sizes.insert(name, std::fs::metadata(&copy)?.len());
         }
-        let contents = Contents {
-            arty: name_of(&built.arty)?,
-            host: name_of(&built.host)?,
-            hash: hash(&built.arty, &built.host)?,
-            sizes,
-        };
+        let contents = Contents { arty: name_of(&built.arty)?, host: name_of(&built.host)?, sizes };
         std::fs::write(folder.path().join(CONTENTS), serde_json::to_vec_pretty(&contents)?)?;
         let place = shelf.join(key);
-        if is_left(&place) {
-            std::fs::remove_dir_all(&place)?;
-        }
-        // Some systems move no folder with an open file.
-        drop(in_use);
+        remove_unused(&place);
+        // Windows moves no folder with an open file.
+        let in_use = (!cfg!(windows)).then_some(in_use);
         std::fs::rename(folder.path(), &place)?;
+        drop(in_use);
         drop(folder.keep());
         remove_old(shelf);
         Ok(())
@@ -115,48 +116,30 @@ impl Kept {
     pub(super) fn libraries(&self) -> PathBuf {
         self.folder.join(LIBRARIES)
     }
-
-    /// Over these two.
-    pub(super) fn hash(&self) -> &str {
-        &self.contents.hash
-    }
-
-    /// The folder with all that belongs to this framework.
-    pub(super) fn folder(&self) -> &Path {
-        &self.folder
-    }
 }
-
-const LIBRARIES: &str = "libraries";
 
 fn name_of(file: &Path) -> Result<PathBuf> {
     file.file_name().map(PathBuf::from).ok_or_else(|| Error::other("a library without a name"))
 }
 
-/// BLAKE3 over two libraries.
-pub(super) fn hash(arty: &Path, host: &Path) -> Result<String> {
-    let mut hasher = blake3::Hasher::new();
-    for library in [arty, host] {
-        hasher.update(&std::fs::read(library)?);
-    }
-    Ok(hasher.finalize().to_hex().to_string())
+/// Undoes that a temporary folder is for its owner only.
+fn open_to_others(folder: &Path) -> Result<()> {
+    #[cfg(unix)]
+    std::fs::set_permissions(folder, std::os::unix::fs::PermissionsExt::from_mode(0o755))?;
+    let _ = folder;
+    Ok(())
 }
 
 /// Removes what nobody uses, but for those used last; also what was begun by graders that are gone.
 fn remove_old(shelf: &Path) {
-    let folders = || std::fs::read_dir(shelf).into_iter().flatten().flatten();
+    let entries = || std::fs::read_dir(shelf).into_iter().flatten().flatten();
     let is_begun = |entry: &DirEntry| entry.file_name().to_string_lossy().starts_with(BEGUN);
-    let mut whole: Vec<(SystemTime, PathBuf)> = folders()
-        .filter(|entry| !is_begun(entry))
-        .filter_map(|entry| Some((entry.path().join(IN_USE).metadata().ok()?.modified().ok()?, entry.path())))
-        .collect();
+    let last_use = |folder: &Path| std::fs::metadata(folder.join(IN_USE)).and_then(|file| file.modified());
+    let whole = entries().filter(|entry| !is_begun(entry)).map(|entry| entry.path());
+    let mut whole: Vec<_> = whole.map(|folder| (last_use(&folder).ok(), folder)).collect();
     whole.sort_by(|a, b| b.cmp(a));
-    let old = whole.into_iter().skip(MOST).map(|(_, folder)| folder);
-    for folder in folders().filter(is_begun).map(|entry| entry.path()).chain(old) {
-        if is_left(&folder) {
-            let _ = std::fs::remove_dir_all(folder);
-        }
-    }
+    whole.into_iter().skip(MOST).for_each(|(_, folder)| remove_unused(&folder));
+    entries().filter(is_begun).for_each(|entry| remove_unused(&entry.path()));
 }
 
 #[cfg(test)]
@@ -197,8 +180,8 @@ mod tests {
     #[test]
     fn what_is_damaged_is_not_found_and_is_replaced() {
         for (name, damage) in [
-            ("libarty.rlib", Some("libarty.rlib: won")),
-            ("libglam.rlib", Some("cut")),
+            ("libarty.rlib", Some("cut")),
+            ("libglam.rlib", Some("longer than it was")),
             ("libglam.rlib", None),
         ] {
             let shelf = tempfile::tempdir().expect("a temporary folder");

@@ -49,21 +49,31 @@ impl Scratch {
 fn remove_left_behind(parent: &Path) {
     for entry in std::fs::read_dir(parent).into_iter().flatten().flatten() {
         let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
-        if is_folder && entry.file_name().to_string_lossy().starts_with(PREFIX) && is_left(&entry.path()) {
-            let _ = std::fs::remove_dir_all(entry.path());
+        if is_folder && entry.file_name().to_string_lossy().starts_with(PREFIX) {
+            remove_unused(&entry.path());
         }
     }
 }
 
-/// True if nobody uses a folder any more.
-pub(super) fn is_left(folder: &Path) -> bool {
+/// Removes a folder if nobody uses it, and keeps everybody from using it meanwhile.
+pub(super) fn remove_unused(folder: &Path) {
     let file = folder.join(IN_USE);
     // A pipe of that name would not be opened before somebody writes to it.
-    if !std::fs::symlink_metadata(&file).is_ok_and(|metadata| metadata.is_file()) {
+    let lock = if std::fs::symlink_metadata(&file).is_ok_and(|metadata| metadata.is_file()) {
+        let Ok(file) = OpenOptions::new().read(true).write(true).open(&file) else { return };
+        if file.try_lock().is_err() {
+            return;
+        }
+        Some(file)
+    } else {
         let made = std::fs::metadata(folder).and_then(|metadata| metadata.modified());
-        return made.is_ok_and(|time| time.elapsed().is_ok_and(|age| age > SURELY_LEFT));
-    }
-    OpenOptions::new().write(true).open(&file).is_ok_and(|file| file.try_lock().is_ok())
+        if !made.is_ok_and(|time| time.elapsed().is_ok_and(|age| age > SURELY_LEFT)) {
+            return;
+        }
+        None
+    };
+    let _ = std::fs::remove_dir_all(folder);
+    drop(lock);
 }
 
 #[cfg(test)]

@@ -148,10 +148,14 @@ fn confinement(profile: Profile<'_>, limits: &Limits) -> Result<Confinement> {
             let rules = rules.map_err(|error| Error::Harness(format!("the rules of Landlock: {error}")))?;
             confinement.landlock = Some(rules);
         }
-        // A toolchain below a closed home can be read by root only. What else root could read, Landlock sees to.
-        switch.reads_all = !user::anyone_reads(grants);
-        if switch.reads_all && confinement.landlock.is_none() {
-            return Ok(confinement);
+        // A toolchain below a closed home can be read by root only. What else root could read or write, Landlock sees to;
+        // where there is no such right to give, or no Landlock, rustc stays root.
+        if machine.user == User::Other && !user::anyone_reads(grants) {
+            let landlocked = confinement.landlock.is_some();
+            let Some(right) = user::right_to_read_all().filter(|_| landlocked) else {
+                return Ok(confinement);
+            };
+            switch.reads_all = Some(right);
         }
     }
     confinement.user = (machine.user == User::Other).then_some(switch);

@@ -2,6 +2,7 @@
 
 use std::os::unix::fs::{MetadataExt, chown};
 use std::path::Path;
+use std::sync::OnceLock;
 
 use rustix::process::geteuid;
 use rustix::process::{Gid, Uid};
@@ -60,26 +61,38 @@ impl User {
 /// How to become the other user.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Switch {
-    /// Whether to keep root's right to read all files.
-    pub(super) reads_all: bool,
+    /// The right of root's to read all files, if it is to be kept.
+    pub(super) reads_all: Option<CapabilitySet>,
 }
 
 /// Makes the calling thread the other user's, for good. It allocates nothing.
 pub(super) fn switch_user(switch: Switch) -> std::io::Result<()> {
     let (user, group) = (Uid::from_raw(NOBODY), Gid::from_raw(NOBODY));
-    if switch.reads_all {
+    if switch.reads_all.is_some() {
         // Rights outlive the change, and count for `access`, too, by which gcc looks for its parts.
         set_capabilities_secure_bits(CapabilitiesSecureBits::NO_SETUID_FIXUP)?;
     }
     set_thread_groups(&[])?;
     set_thread_res_gid(group, group, group)?;
     set_thread_res_uid(user, user, user)?;
-    if switch.reads_all {
-        let read = CapabilitySet::DAC_READ_SEARCH;
+    if let Some(read) = switch.reads_all {
         set_capabilities(None, CapabilitySets { effective: read, permitted: read, inheritable: read })?;
         configure_capability_in_ambient_set(read, true)?;
     }
     Ok(())
+}
+
+/// The right of root's by which the other user could read all files; `None` if root has none to give here.
+pub(super) fn right_to_read_all() -> Option<CapabilitySet> {
+    static RIGHT: OnceLock<Option<CapabilitySet>> = OnceLock::new();
+    // A container's root has often only the second, which is more than is needed, and less than to stay root.
+    let works = |right: &CapabilitySet| {
+        let switch = Switch { reads_all: Some(*right) };
+        // In a thread of its own, which ends with what it has become.
+        matches!(std::thread::spawn(move || switch_user(switch)).join(), Ok(Ok(())))
+    };
+    *RIGHT
+        .get_or_init(|| [CapabilitySet::DAC_READ_SEARCH, CapabilitySet::DAC_OVERRIDE].into_iter().find(works))
 }
 
 /// Gives a folder and its files to the user that hand-ins run as.
