@@ -84,7 +84,15 @@ type Answer<T> = Result<std::result::Result<T, Fault>>;
 impl HostProcess {
     /// Starts the program in a sandbox, with an empty environment, in a folder of its own.
     pub fn start(program: &HandInProgram, threads: usize) -> Result<Self> {
-        let trouble = |error| Error::Harness(format!("the hand-in's program does not start: {error}"));
+        let trouble = |error: std::io::Error| {
+            let denied = error.kind() == ErrorKind::PermissionDenied;
+            let why = if denied {
+                "; may programs be run from the folder for temporary files? set TMPDIR to one where they may"
+            } else {
+                ""
+            };
+            Error::Harness(format!("the hand-in's program does not start: {error}{why}"))
+        };
         let limits = &program.limits;
         let mut command = Command::new(&program.executable);
         command

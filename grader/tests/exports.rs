@@ -179,6 +179,26 @@ fn run_by<'a>(steps: &'a [Value], name: &str) -> &'a str {
     step["run"].as_str().expect("it runs a script")
 }
 
+/// Autolab takes what goes to either stream as one text, and reads its last line.
+#[cfg(unix)]
+#[test]
+fn what_is_exported_to_standard_output_comes_after_everything_else() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut bash = Command::new("bash");
+    bash.args([
+        "-c",
+        "exec 2>&1; exec \"$0\" \"$@\"",
+        env!("CARGO_BIN_EXE_grader"),
+        "grade",
+        &student_file(),
+    ])
+    .args(["--only=closed-form/point_plane/mis/1", "--export=autolab"])
+    .current_dir(folder.path());
+    let output = text(&bash.output().expect("bash starts").stdout);
+    assert!(output.contains("report: report/report.json"), "{output}");
+    assert!(output.lines().last().is_some_and(|line| line.starts_with("{\"scores\":")), "{output}");
+}
+
 #[test]
 fn formats_go_where_they_are_asked_for_and_wrong_ones_end_with_2() {
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -226,6 +246,7 @@ fn gradescope_s_script_gives_results_also_where_there_is_nothing_to_grade() {
         bash.arg(&script)
             .env("AUTOGRADER_ROOT", folder.path())
             .env("GRADER", env!("CARGO_BIN_EXE_grader"))
+            .env("ALLOW_SANDBOX", "none")
             .env_remove("GITHUB_ACTIONS")
             .env_remove("GITHUB_STEP_SUMMARY");
         let output = bash.output().expect("bash starts");
@@ -236,9 +257,13 @@ fn gradescope_s_script_gives_results_also_where_there_is_nothing_to_grade() {
     };
     std::fs::create_dir(submission.join("a\"\\b\n")).expect("it can be made");
     let nothing = run();
-    assert_eq!(nothing["score"], 0);
+    assert_eq!(nothing["score"], 0.0);
     assert!(nothing["output"].as_str().is_some_and(|why| why.contains("render_pt.rs")), "{nothing}");
 
+    // The file counts, and not the repository that came with it.
+    std::fs::create_dir_all(submission.join(".git/objects")).expect("it can be made");
+    std::fs::create_dir_all(submission.join(".git/refs")).expect("it can be made");
+    std::fs::write(submission.join(".git/HEAD"), "ref: refs/heads/main").expect("it can be written");
     std::fs::write(submission.join("render_pt.rs"), "fn broken() {").expect("it can be written");
     let metadata =
         r#"{"created_at": "2026-11-20T11:20:00Z", "assignment": {"due_date": "2026-11-20T10:00:00Z"}}"#;
@@ -247,6 +272,9 @@ fn gradescope_s_script_gives_results_also_where_there_is_nothing_to_grade() {
     assert_eq!(broken["score"], 0.0);
     let output = broken["output"].as_str().expect("a text");
     assert!(output.contains("does not compile") && output.contains("It came 1:20 h after"), "{output}");
+
+    std::fs::write(folder.path().join("submission_metadata.json"), "{}}").expect("it can be written");
+    assert_eq!(run()["score"], 0.0, "metadata that cannot be read cost no results");
 }
 
 #[test]

@@ -33,7 +33,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Writes what was asked for with `--export`, and what GitHub's machines show if it is there.
+/// Writes the files that were asked for with `--export`, and what GitHub's machines show if it is there.
 ///
 /// # Errors
 /// If a file cannot be written.
@@ -57,8 +57,16 @@ pub(super) fn after_grade(report: &Report, exports: &[Export], folder: &Path) ->
         let _ = std::io::stdout().lock().write_all(annotations(report, &surroundings).as_bytes());
         eprintln!("GITHUB_ACTIONS is set: annotations were printed");
     }
-    // What goes to standard output comes last: Autolab reads the last line.
-    let mut in_order: Vec<&Export> = exports.iter().collect();
-    in_order.sort_by_key(|export| export.target(folder).is_none());
-    in_order.into_iter().try_for_each(|export| export.write(report, &surroundings, folder))
+    let mut files = exports.iter().filter(|export| export.target(folder).is_some());
+    files.try_for_each(|export| export.write(report, &surroundings, folder))
+}
+
+/// Writes what was asked for on standard output, after everything else: Autolab reads the last line.
+///
+/// # Errors
+/// If it cannot be written.
+pub(super) fn at_the_end(report: &Report, exports: &[Export], folder: &Path) -> Result<()> {
+    let surroundings = Surroundings::here(report);
+    let mut others = exports.iter().filter(|export| export.target(folder).is_none());
+    others.try_for_each(|export| export.write(report, &surroundings, folder))
 }

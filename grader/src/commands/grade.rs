@@ -37,6 +37,9 @@ pub(super) struct Arguments {
     /// Threads for the hand-in [default: one for each core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: Option<u16>,
+    /// A hand-in without a render_pt.rs gets a report with 0 points, where it is an error otherwise: for servers
+    #[arg(long)]
+    missing_is_zero: bool,
     /// Exit with status 1 if fewer points than this are earned, of all automatic points
     #[arg(long, value_name = "POINTS", conflicts_with = "only", value_parser = points)]
     fail_under: Option<f64>,
@@ -67,7 +70,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let path = arguments.submission.clone().unwrap_or_else(|| workspace.student_file());
     let path = relative(path);
     let received = arguments.when.read(&workspace, &arguments.assignment.name)?;
-    let HandIn { outcome, notes, checksums, explanations } = take(&workspace, &path)?;
+    let HandIn { outcome, notes, checksums, explanations } =
+        take(&workspace, &path, arguments.missing_is_zero)?;
     let threads = arguments.jobs.map_or_else(rayon::current_num_threads, usize::from);
     let options = Options {
         assignment: arguments.assignment.name.clone(),
@@ -128,17 +132,20 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     if !arguments.quiet {
         eprintln!("report: {}", file.display());
     }
+    export::at_the_end(&report, &arguments.export, &arguments.out)?;
     let too_few = arguments.fail_under.is_some_and(|least| report.points.earned < least);
     Ok(ExitCode::from(u8::from(too_few)))
 }
 
 /// Takes in what was named. That nothing at all is there, or that it cannot be read, is the fault of whoever named it;
-/// any other refusal is that of the hand-in, which has no points then.
-fn take(workspace: &Workspace, path: &Path) -> Result<HandIn> {
+/// any other refusal is that of the hand-in, which has no points then. So are these with `missing_is_zero`.
+fn take(workspace: &Workspace, path: &Path, missing_is_zero: bool) -> Result<HandIn> {
     let starter = std::fs::read_to_string(workspace.student_file()).unwrap_or_default();
     let hand_in = intake::take(&[path.to_owned()], &starter)?;
     match &hand_in.outcome {
-        Err(refusal @ (Refusal::MissingFile(_) | Refusal::Unreadable(..))) => Err(Error::file(path, refusal)),
+        Err(refusal @ (Refusal::MissingFile(_) | Refusal::Unreadable(..))) if !missing_is_zero => {
+            Err(Error::file(path, refusal))
+        }
         _ => Ok(hand_in),
     }
 }

@@ -5,18 +5,21 @@ use serde_json::{Value, json};
 use super::Surroundings;
 use crate::report::Report;
 
-/// The result. Its scores are whole numbers: each task is rounded, and the sum is that of the rounded ones.
+/// The result. Its scores are whole numbers: each task is rounded, and the sum is that of the rounded ones. What only staff
+/// can decide does not count.
 pub(super) fn result(report: &Report, surroundings: &Surroundings) -> serde_json::Result<String> {
     let graded = report.tasks.iter().filter_map(|task| Some((task, task.points?)));
-    let tests: Vec<(String, u64, u64)> = graded
+    let tests: Vec<(String, bool, u64, u64)> = graded
         .map(|(task, points)| {
-            (format!("{} {}", task.id, task.title), points.round() as u64, task.max.round() as u64)
+            let max = task.max - task.elsewhere;
+            let name = format!("{} {}", task.id, task.title);
+            (name, points >= max, points.round() as u64, max.round() as u64)
         })
         .collect();
     let list: Vec<Value> = tests
         .iter()
-        .map(|(name, score, max)| {
-            json!({ "test-name": name, "passed": score == max, "score": score, "max-score": max })
+        .map(|(name, passed, score, max)| {
+            json!({ "test-name": name, "passed": passed, "score": score, "max-score": max })
         })
         .collect();
     let variable = |name| surroundings.variable(name);
@@ -32,8 +35,8 @@ pub(super) fn result(report: &Report, surroundings: &Surroundings) -> serde_json
         "release": variable("RELEASE_URL"),
         "review": variable("REVIEW_URL"),
         "datetime": now,
-        "score": tests.iter().map(|(_, score, _)| score).sum::<u64>(),
-        "max-score": tests.iter().map(|(_, _, max)| max).sum::<u64>(),
+        "score": tests.iter().map(|(_, _, score, _)| score).sum::<u64>(),
+        "max-score": tests.iter().map(|(_, _, _, max)| max).sum::<u64>(),
         "tests": list,
     });
     Ok(serde_json::to_string_pretty(&result)? + "\n")
@@ -71,5 +74,20 @@ mod tests {
         assert_eq!(sum("score"), value["score"].as_u64());
         assert_eq!(sum("max-score"), value["max-score"].as_u64());
         assert_eq!(value["score"], 13);
+    }
+
+    #[test]
+    fn what_only_staff_can_decide_does_not_count_and_rounding_passes_nothing() {
+        let task = |points: f64| {
+            let mut report = report("x");
+            (report.tasks[0].points, report.tasks[0].max, report.tasks[0].elsewhere) =
+                (Some(points), 20.0, 1.0);
+            let text = result(&report, &Surroundings::default()).expect("it can be made");
+            serde_json::from_str::<Value>(&text).expect("it is JSON")["tests"][0].clone()
+        };
+        let right = task(19.0);
+        assert_eq!((&right["passed"], &right["max-score"]), (&json!(true), &json!(19)));
+        let almost = task(18.5);
+        assert_eq!((&almost["passed"], &almost["score"]), (&json!(false), &json!(19)));
     }
 }

@@ -1,4 +1,5 @@
-//! JUnit's XML: a suite for each task, a test case for each check.
+//! JUnit's XML: a suite for each task, a test case for each check. Why something failed stands in the element's text, too:
+//! some show that, others its attribute `message`.
 
 use std::time::Duration;
 
@@ -72,7 +73,7 @@ fn status(check: &CheckResult) -> TestCaseStatus {
         }
         Verdict::Error => {
             let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
-            status.set_message(&check.explanation).set_type("harness");
+            status.set_message(&check.explanation).set_type("harness").set_description(&check.explanation);
             status
         }
     }
@@ -80,13 +81,13 @@ fn status(check: &CheckResult) -> TestCaseStatus {
 
 fn failed(why: &str, kind: &str) -> TestCaseStatus {
     let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
-    status.set_message(why).set_type(kind);
+    status.set_message(why).set_type(kind).set_description(why);
     status
 }
 
 fn skipped(why: &str) -> TestCaseStatus {
     let mut status = TestCaseStatus::skipped();
-    status.set_message(why);
+    status.set_message(why).set_description(why);
     status
 }
 

@@ -3,14 +3,18 @@
 set -euo pipefail
 root=${AUTOGRADER_ROOT:-/autograder}
 
+# Where everybody may read: root's home is closed to the user that hand-ins are compiled by.
+export RUSTUP_HOME=/opt/rustup CARGO_HOME=/opt/cargo PATH=/opt/cargo/bin:$PATH
 apt-get update
 apt-get install -y --no-install-recommends ca-certificates curl gcc libc6-dev
-if ! command -v cargo >/dev/null && [ ! -x "$HOME/.cargo/bin/cargo" ]; then
-  curl --proto '=https' --tlsv1.2 -sSf https://sh.rustup.rs | sh -s -- -y --profile minimal
-fi
-export PATH="$HOME/.cargo/bin:$PATH"
+curl --proto '=https' --tlsv1.2 -sSf https://sh.rustup.rs |
+  sh -s -- -y --no-modify-path --profile minimal --default-toolchain 1.95.0
 
+# The solution is in there.
+chmod -R go= "$root/source"
 cd "$root/source"
 cargo build --release --locked -p grader
-# Compiles the framework, so that the first hand-in does not wait for it.
 target/release/grader doctor
+# Builds the framework, and keeps what the solution answers, so that no hand-in waits for it. This fails where the sandbox is
+# too weak to grade in: students' code could read the solution.
+target/release/grader grade solution/src/algorithms/render_pt.rs --allow-sandbox=medium --no-report --out=/tmp/solution
