@@ -33,6 +33,8 @@ pub struct HostProcess {
     /// In which scene and with which settings the first part of a job was in time, the last that was.
     tried: Option<(u32, Settings)>,
     layers: Layers,
+    /// Whether it was ended because it took too long.
+    ended: bool,
 }
 
 /// A job is tried with this part of it, to see whether it will ever end …
@@ -110,9 +112,18 @@ impl HostProcess {
         let responses = receive(child.stdout.take().expect("stdout is piped"), limits.answer);
         let job_time = limits.job_time;
         let layers = Layers::default();
-        let mut process =
-            Self { child, requests, responses, scenes: 0, job_time, all_jobs: None, tried: None, layers };
-        match process.answer(job_time, job_time) {
+        let mut process = Self {
+            child,
+            requests,
+            responses,
+            scenes: 0,
+            job_time,
+            all_jobs: None,
+            tried: None,
+            layers,
+            ended: false,
+        };
+        match process.answer(job_time, job_time)? {
             Ok(Response::Started(layers)) => process.layers = layers,
             Ok(_) => return Err(Error::Harness("the hand-in's program did not say that it is there".into())),
             Err(fault) => {
@@ -224,9 +235,9 @@ impl HostProcess {
             .map_err(|error| Error::Harness(format!("a job cannot be sent: {error}")))?;
         // If nobody takes it any more, there will be no answer either.
         let _ = self.requests.send(bytes);
-        let Some([all, left]) = self.all_jobs else { return Ok(self.answer(time, self.job_time)) };
+        let Some([all, left]) = self.all_jobs else { return self.answer(time, self.job_time) };
         let start = Instant::now();
-        let answer = self.answer(time.min(left), self.job_time.min(left));
+        let answer = self.answer(time.min(left), self.job_time.min(left))?;
         self.all_jobs = Some([all, left.saturating_sub(start.elapsed())]);
         Ok(answer.map_err(|fault| match fault {
             Fault::Timeout(_) if left < time => Fault::Timeout(all),
@@ -236,7 +247,7 @@ impl HostProcess {
 
     /// What the process says next, in time. If it had less than half of that time on a processor, because the machine
     /// had other things to do, it is given `most`.
-    fn answer(&mut self, time: Duration, most: Duration) -> std::result::Result<Response, Fault> {
+    fn answer(&mut self, time: Duration, most: Duration) -> Answer<Response> {
         let before = sandbox::processor_time(&self.child);
         let (mut time, mut said) = (time, self.responses.recv_timeout(time));
         if matches!(said, Err(RecvTimeoutError::Timeout)) && time < most {
@@ -246,23 +257,30 @@ impl HostProcess {
                 time = most;
             }
         }
-        match said {
+        Ok(match said {
             Ok(Ok(Some(response))) => Ok(response),
-            Ok(Ok(None)) | Err(RecvTimeoutError::Disconnected) => Err(self.crash()),
-            Ok(Err(error)) if error.kind() == ErrorKind::UnexpectedEof => Err(self.crash()),
+            Ok(Ok(None)) | Err(RecvTimeoutError::Disconnected) => Err(self.crash()?),
+            Ok(Err(error)) if error.kind() == ErrorKind::UnexpectedEof => Err(self.crash()?),
             Ok(Err(error)) => Err(Fault::Malformed(clean(&error.to_string()))),
             Err(RecvTimeoutError::Timeout) => {
                 sandbox::end(&mut self.child);
+                self.ended = true;
                 Err(Fault::Timeout(time))
             }
-        }
+        })
     }
 
-    fn crash(&mut self) -> Fault {
+    /// How the process ended by itself.
+    fn crash(&mut self) -> Result<Fault> {
         // The pipe may close a moment before the process is gone.
         std::thread::sleep(Duration::from_millis(20));
+        if let Ok(Some(status)) = self.child.try_wait()
+            && !self.ended
+        {
+            sandbox::blame_machine(status, "the hand-in's program")?;
+        }
         sandbox::end(&mut self.child);
-        Fault::Crash(self.child.wait().map_or_else(|error| error.to_string(), describe))
+        Ok(Fault::Crash(self.child.wait().map_or_else(|error| error.to_string(), describe)))
     }
 }
 

@@ -131,6 +131,7 @@ fn compile_once(
         let messages = format!("rustc did not finish within {} s\n", limits.compile_time.as_secs());
         return Ok(Err(BuildFailure { messages, line: None }));
     };
+    sandbox::blame_machine(status, "rustc")?;
     if status.success() {
         let executable = folder.path().join(executable_name());
         let limits = *limits;

@@ -28,6 +28,6 @@ pub use host::confine::Layers;
 pub use level::Level;
 pub(crate) use level::{both, missing};
 pub use limits::Limits;
-pub(crate) use process::{Profile, end, prepare};
+pub(crate) use process::{Profile, blame_machine, end, prepare};
 pub use system::Machine;
 pub(crate) use system::{hand_over, processor_time};

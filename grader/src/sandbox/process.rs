@@ -1,12 +1,12 @@
 //! Processes that are confined from the outside, and ended with all that they have started.
 
 use std::path::Path;
-use std::process::{Child, Command};
+use std::process::{Child, Command, ExitStatus};
 
 use host::confine::Layers;
 
 use super::{Grants, Limits, system};
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// What a process is for.
 #[derive(Clone, Copy, Debug)]
@@ -52,4 +52,21 @@ pub(crate) fn end(child: &mut Child) {
         );
     }
     let _ = child.kill();
+}
+
+/// An error if a process ended by a signal that the grader did not send, and that its program cannot send itself: then it is
+/// the machine that had no more memory, or somebody who ended it.
+///
+/// # Errors
+/// If it is so.
+pub(crate) fn blame_machine(status: ExitStatus, who: &str) -> Result<()> {
+    #[cfg(unix)]
+    if std::os::unix::process::ExitStatusExt::signal(&status) == Some(rustix::process::Signal::KILL.as_raw())
+    {
+        return Err(Error::Harness(format!(
+            "{who} was ended from outside: a machine does so that has no memory left; grade again, with fewer --jobs"
+        )));
+    }
+    let _ = (status, who);
+    Ok(())
 }
