@@ -61,12 +61,18 @@ pub(crate) fn end(child: &mut Child) {
 /// If it is so.
 pub(crate) fn blame_machine(status: ExitStatus, who: &str) -> Result<()> {
     #[cfg(unix)]
-    if std::os::unix::process::ExitStatusExt::signal(&status) == Some(rustix::process::Signal::KILL.as_raw())
-    {
+    let killed = std::os::unix::process::ExitStatusExt::signal(&status)
+        == Some(rustix::process::Signal::KILL.as_raw());
+    // Elsewhere nothing tells that from an end of its own.
+    #[cfg(not(unix))]
+    let killed = {
+        let _ = status;
+        false
+    };
+    if killed {
         return Err(Error::Harness(format!(
             "{who} was ended from outside: a machine does so that has no memory left; grade again, with fewer --jobs"
         )));
     }
-    let _ = (status, who);
     Ok(())
 }
