@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::workspace::Workspace;
 
 /// What Cargo is asked for.
-pub(super) const ARGUMENTS: [&str; 8] =
+const ARGUMENTS: [&str; 8] =
     ["build", "--package", "host", "--features", "serve", "--profile", "grading", "--locked"];
 
 /// The compiled libraries, where Cargo has put them.

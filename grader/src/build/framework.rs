@@ -57,7 +57,10 @@ impl Framework {
         }
         Ok(match find() {
             Some(kept) => Self::of_kept(kept, key, &compiler),
-            None => Self::new(built.arty.clone(), built.host.clone(), built.dependencies(), key, &compiler),
+            None => {
+                let dependencies = built.dependencies();
+                Self::new(built.arty, built.host, dependencies, key, &compiler)
+            }
         })
     }
 
@@ -95,10 +98,10 @@ impl Framework {
 /// What of `skeleton/src` has no part in the libraries: the student's file, the program.
 const NO_PART: [&str; 3] = ["algorithms", "cli", "main.rs"];
 
-/// Over all that decides what Cargo builds: sources, versions of dependencies, settings, the compiler.
+/// Over all that decides what Cargo builds: how it is called, sources, versions of dependencies, settings, the compiler.
 fn key_of(workspace: &Workspace, compiler: &Compiler) -> Result<String> {
     let mut hasher = blake3::Hasher::new();
-    hasher.update(cargo::ARGUMENTS.join(" ").as_bytes());
+    hasher.update(include_bytes!("cargo.rs"));
     hasher.update(compiler.version.as_bytes()).update(compiler.sysroot.as_os_str().as_encoded_bytes());
     let others =
         ["Cargo.toml", "Cargo.lock", "skeleton/Cargo.toml", "grader/host/Cargo.toml", "grader/host/src"];

@@ -89,7 +89,7 @@ impl Grader {
         let rubric = Rubric::load(&rubric_file)?;
         let selected = select(&rubric, &options.only)?;
         let start = Instant::now();
-        // Cargo mostly finds that there is nothing to do, and does not need both cores for that.
+        // The framework is mostly there already, and to find it does not take both cores.
         let (scenes, framework) = rayon::join(
             || load_scenes(workspace, &selected),
             || {
