@@ -1,6 +1,9 @@
-//! The grader as a program.
+//! The grader as a program: it composes what the crates below it do.
+
+mod commands;
+mod memory;
 
 fn main() -> std::process::ExitCode {
-    grader::memory::stay_small();
-    grader::commands::run()
+    memory::stay_small();
+    commands::run()
 }

@@ -5,7 +5,7 @@
 /// Each process of a hand-in begins as a copy of this one's page tables, a hundred times in a grade. Answers of megabytes,
 /// taken by one thread after the other, would leave 180 MB behind in a class, and copying the tables of these would take as
 /// long as a twentieth of all grading. Only glibc hoards like that.
-pub fn stay_small() {
+pub(crate) fn stay_small() {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     for (parameter, value) in
         [(libc::M_ARENA_MAX, 2), (libc::M_MMAP_THRESHOLD, 1 << 20), (libc::M_TRIM_THRESHOLD, 4 << 20)]

@@ -72,7 +72,6 @@ fn what_staff_or_student_typed_wrong_ends_with_2_and_one_clear_message() {
         (vec!["grade", &empty], "there is no render_pt.rs"),
         (vec!["grade", &file, "--only=nonsense"], "--only: no such check"),
         (vec!["grade", &file, "--assignment=99"], "rubric.yml"),
-        (vec!["reference", "nonsense"], "no check uses a scene `nonsense`"),
         (vec!["grade", "--seed=x"], "invalid value"),
         (vec!["grade", &file, "--out", &file], "render_pt.rs"),
         (vec!["grade", &file, "--only=point_plane", "--fail-under=1"], "cannot be used with"),
@@ -195,7 +194,7 @@ fn a_person_marks_what_is_not_graded_automatically_and_nothing_else() {
             grader(folder.path(), &["grade", ".", "--only=light-pick", "--out=here"]);
         }
         let report =
-            grader::report::Report::load(&folder.path().join("here/report.json")).expect("it is there");
+            verdict::report::Report::load(&folder.path().join("here/report.json")).expect("it is there");
         let task = report.tasks.iter().find(|task| task.id == "5.2a").expect("it is a task");
         assert_eq!((task.points, task.reason.as_str()), (Some(8.0), "well seen"), "again: {again}");
         assert_eq!(report.points.marked, Some(8.0));

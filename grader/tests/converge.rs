@@ -3,11 +3,11 @@
 //! Times differ from run to run, and with them the numbers of samples; what is asked for here holds with wide margins.
 
 use arty::integrator::Technique;
-use grader::build::{Framework, HandInProgram, compile};
-use grader::convergence::{
-    Contestant, Convergence, Curve, Options, Role, brief, crops, measure, save_csv, svg,
-};
-use grader::workspace::Workspace;
+use harness::build::{Framework, HandInProgram, compile};
+use harness::workspace::Workspace;
+use judge::convergence::{Contestant, Options, brief, crops, measure};
+use present::convergence::{save_csv, svg};
+use verdict::convergence::{Convergence, Curve, Role};
 
 fn workspace() -> Workspace {
     Workspace::find().expect("the tests run inside the checkout")
@@ -19,7 +19,7 @@ fn solution() -> String {
 
 fn program(source: &str) -> HandInProgram {
     let framework = Framework::build(&workspace()).expect("the framework builds");
-    compile(&framework, source, &grader::sandbox::Limits::default())
+    compile(&framework, source, &harness::sandbox::Limits::default())
         .expect("the harness works")
         .expect("it compiles")
 }
@@ -118,6 +118,6 @@ fn crops_show_each_program_and_the_reference_after_the_same_time() {
     let error = |index: usize| crops[0].list[index].relative_mse.expect("it is known");
     // It is about twenty times as large.
     assert!(error(1) > 3.0 * error(0), "{} {}", error(0), error(1));
-    let sizes = crops[0].list.iter().map(|crop| image::load_from_memory(&crop.png).expect("a PNG").width());
+    let sizes = crops[0].list.iter().map(|crop| crop.width);
     assert_eq!(sizes.collect::<Vec<_>>(), [48, 48, 48]);
 }

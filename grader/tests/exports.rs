@@ -278,24 +278,6 @@ fn gradescope_s_script_gives_results_also_where_there_is_nothing_to_grade() {
 }
 
 #[test]
-fn the_autograder_is_a_zip_that_gradescope_takes() {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let made = grader(folder.path(), &["gradescope"]);
-    assert_eq!(made.status.code(), Some(0), "{}", text(&made.stderr));
-    let file = std::fs::File::open(folder.path().join("autograder.zip")).expect("it is there");
-    let mut archive = zip::ZipArchive::new(file).expect("it is a zip");
-    for name in ["setup.sh", "run_autograder"] {
-        let entry = archive.by_name(name).expect("it is at the top");
-        assert_eq!(entry.unix_mode().map(|mode| mode & 0o777), Some(0o755), "{name}");
-    }
-    let needed =
-        ["Cargo.lock", ".cargo/config.toml", "solution/src/algorithms/render_pt.rs", "grader/src/main.rs"];
-    for name in needed {
-        assert!(archive.by_name(name).is_ok(), "{name}");
-    }
-}
-
-#[test]
 fn shells_get_completions() {
     for (shell, sign) in [("bash", "complete -F"), ("zsh", "#compdef grader"), ("fish", "complete -c grader")]
     {

@@ -6,15 +6,15 @@ use std::time::{Duration, Instant};
 
 use arty::integrator::{Settings, Technique};
 use arty::scene::SceneDescription;
-use grader::build::{Framework, HandInProgram, compile};
-use grader::grade::{Options, grade};
-use grader::host_process::HostProcess;
-use grader::report::{Reason, Report, Verdict};
-use grader::sandbox::{Level, Limits, Machine};
-use grader::submission::Submission;
-use grader::workspace::Workspace;
+use harness::build::{Framework, HandInProgram, compile};
+use harness::host_process::HostProcess;
+use harness::sandbox::{Level, Limits, Machine};
+use harness::workspace::Workspace;
 use host::protocol::{RenderJob, Switches};
+use judge::grade::{Options, grade};
 use serde::Deserialize;
+use verdict::report::{Reason, Report, Verdict};
+use verdict::submission::Submission;
 
 /// The index of the corpus.
 #[derive(Deserialize)]
@@ -224,14 +224,14 @@ fn a_source_of_megabytes_is_not_even_compiled() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("render_pt.rs");
     std::fs::write(&file, "// x\n".repeat(200_000)).expect("it can be written");
-    let error = Submission::read(&file).expect_err("it is refused").to_string();
+    let error = intake::read(&file).expect_err("it is refused").to_string();
     assert!(error.contains("too many"), "{error}");
 }
 
 #[test]
 fn without_a_sandbox_the_report_says_so() {
     let workspace = workspace();
-    let submission = Submission::read(&workspace.solution_file()).expect("the solution is there");
+    let submission = intake::read(&workspace.solution_file()).expect("the solution is there");
     let limits = Limits { sandbox: false, ..limits() };
     let only = vec![CHECK.to_owned()];
     let assignment = ASSIGNMENT.to_owned();
@@ -244,7 +244,7 @@ fn without_a_sandbox_the_report_says_so() {
 #[test]
 fn where_a_sandbox_is_asked_for_nothing_is_graded_without() {
     let workspace = workspace();
-    let submission = Submission::read(&workspace.solution_file()).expect("the solution is there");
+    let submission = intake::read(&workspace.solution_file()).expect("the solution is there");
     let limits = Limits { sandbox: false, least: Level::Medium, ..limits() };
     let options =
         Options { assignment: ASSIGNMENT.to_owned(), seed: 1, threads: 2, only: Vec::new(), limits };

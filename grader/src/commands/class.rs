@@ -5,16 +5,16 @@ use std::process::ExitCode;
 
 use jiff::tz::TimeZone;
 
-use super::assignment::Assignment;
 use super::least_sandbox::LeastSandbox;
 use super::policy::policy;
-use crate::class::gradebook::{Row, State, save_class, save_gradebook};
-use crate::class::page::ClassPage;
-use crate::class::{Class, RunOptions, has_results, roster, run, similar, systems};
-use crate::error::{Error, Result};
-use crate::grade::Options;
-use crate::policy::{Manifest, Receipt, parse_received};
-use crate::workspace::Workspace;
+use classroom::class::gradebook::{Row, State, save_class, save_gradebook};
+use classroom::class::page::ClassPage;
+use classroom::class::{Class, RunOptions, has_results, roster, run, similar, systems};
+use classroom::policy::{Manifest, Receipt, parse_received};
+use harness::assignment::Assignment;
+use harness::workspace::Workspace;
+use judge::grade::Options;
+use verdict::error::{Error, Result};
 
 /// Grade a class: a folder of hand-ins as Moodle and ILIAS pack them, or one folder, archive or file for each student.
 #[derive(clap::Args)]
@@ -157,7 +157,7 @@ fn report_filled(system: &str, filled: &systems::Filled) {
 }
 
 fn print_outcome(
-    outcome: &crate::class::Outcome,
+    outcome: &classroom::class::Outcome,
     alike: &[similar::Group],
     gradebook: &Path,
     arguments: &Arguments,
@@ -183,7 +183,9 @@ fn print_outcome(
         alike.len(),
     );
     let unknown = count(&|row| {
-        row.lateness.as_ref().is_some_and(|lateness| lateness.standing == crate::policy::Standing::Unknown)
+        row.lateness
+            .as_ref()
+            .is_some_and(|lateness| lateness.standing == classroom::policy::Standing::Unknown)
     });
     if unknown > 0 {
         eprintln!("of {unknown} hand-ins nobody said when they came: they count in full (see --manifest)");

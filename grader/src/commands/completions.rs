@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::CommandFactory;
 use clap_complete::Shell;
 
-use crate::error::Result;
+use verdict::error::Result;
 
 /// Print what a shell needs to complete the grader's commands and options.
 #[derive(clap::Args)]

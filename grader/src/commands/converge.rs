@@ -7,16 +7,15 @@ use arty::image::check_writable;
 use arty::integrator::Technique;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::build::{Framework, compile};
-use crate::convergence::{
-    Contestant, Options, Role, TELLING_SCENES, crops, measure, page, print_table, save_csv, save_json, svg,
-};
-use crate::error::{Error, Result};
-use crate::reference::Oracle;
-use crate::report::LeftOut;
-use crate::sandbox::Limits;
-use crate::submission::Submission;
-use crate::workspace::Workspace;
+use harness::build::{Framework, compile};
+use harness::sandbox::Limits;
+use harness::workspace::Workspace;
+use judge::convergence::{Contestant, Options, crops, measure};
+use judge::reference::Oracle;
+use present::convergence::{page, print_table, save_csv, save_json, svg};
+use verdict::convergence::{Role, TELLING_SCENES};
+use verdict::error::{Error, Result};
+use verdict::report::LeftOut;
 
 /// Measure the error of hand-ins against run time, beside the solution and plain BSDF sampling.
 ///
@@ -61,7 +60,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     } else {
         arguments.submissions.clone()
     };
-    let submissions = paths.iter().map(|path| Submission::read(path)).collect::<Result<Vec<_>>>()?;
+    let submissions = paths.iter().map(|path| intake::read(path)).collect::<Result<Vec<_>>>()?;
     let or_default = |given: &[String]| match given.is_empty() {
         true => TELLING_SCENES.map(str::to_owned).to_vec(),
         false => given.to_vec(),
@@ -129,7 +128,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
 /// What each hand-in is called: by its file or folder, or by all of its path where that is the name of several.
 fn names(paths: &[PathBuf]) -> Vec<String> {
     let short = |path: &Path| {
-        let name = if path.file_name().is_some_and(|name| name == crate::submission::FILE_NAME) {
+        let name = if path.file_name().is_some_and(|name| name == verdict::submission::FILE_NAME) {
             path.parent().and_then(Path::file_name)
         } else {
             path.file_stem()

@@ -3,13 +3,12 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use crate::build::{Framework, compile};
-use crate::error::Result;
-use crate::host_process::HostProcess;
-use crate::report::Sandbox;
-use crate::sandbox::{Layers, Level, Limits, Machine, linker};
-use crate::submission::Submission;
-use crate::workspace::Workspace;
+use harness::build::{Framework, compile};
+use harness::host_process::HostProcess;
+use harness::sandbox::{Layers, Level, Limits, Machine, linker};
+use harness::workspace::Workspace;
+use verdict::error::Result;
+use verdict::report::Sandbox;
 
 /// Tell what this machine gives for grading: compiler, linker, sandbox, and how to get a better one.
 #[derive(clap::Args)]
@@ -39,7 +38,7 @@ pub(super) fn run(_: &Arguments) -> Result<ExitCode> {
         format!("{} MiB to compile, {} MiB for a job", limits.compile_memory >> 20, limits.job_memory >> 20),
     );
 
-    let starter = Submission::read(&workspace.student_file())?;
+    let starter = intake::read(&workspace.student_file())?;
     let host = match compile(&framework, &starter.source, &limits)? {
         Ok(program) => Some((program.layers, HostProcess::start(&program, 1)?.layers())),
         Err(failure) => {

@@ -4,9 +4,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use crate::error::{Error, Result};
-use crate::export::{Export, Format, Received, Surroundings, annotations, summary};
-use crate::report::Report;
+use present::export::{Export, Format, Received, Surroundings, annotations, summary};
+use verdict::error::{Error, Result};
+use verdict::report::Report;
 
 /// Write a report in the format of another system: Markdown, JUnit, GitHub, Gradescope, Classroom 50, Autolab.
 #[derive(clap::Args)]
@@ -26,7 +26,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let report = Report::load(&arguments.report)?;
-    let mut surroundings = Surroundings::here(&report);
+    let mut surroundings = surroundings_of(&report);
     surroundings.received = arguments.metadata.as_deref().map(Received::load).transpose()?;
     let file = arguments.out.clone().unwrap_or_else(|| PathBuf::from("-"));
     Export { format: arguments.format, file: Some(file) }.write(&report, &surroundings, Path::new("."))?;
@@ -38,7 +38,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
 /// # Errors
 /// If a file cannot be written.
 pub(super) fn after_grade(report: &Report, exports: &[Export], folder: &Path) -> Result<()> {
-    let surroundings = Surroundings::here(report);
+    let surroundings = surroundings_of(report);
     let variable = |name: &str| surroundings.environment.get(name).filter(|value| !value.is_empty());
     if let Some(file) = variable("GITHUB_STEP_SUMMARY") {
         // Other steps' summaries may stand there already.
@@ -66,7 +66,12 @@ pub(super) fn after_grade(report: &Report, exports: &[Export], folder: &Path) ->
 /// # Errors
 /// If it cannot be written.
 pub(super) fn at_the_end(report: &Report, exports: &[Export], folder: &Path) -> Result<()> {
-    let surroundings = Surroundings::here(report);
+    let surroundings = surroundings_of(report);
     let mut others = exports.iter().filter(|export| export.target(folder).is_none());
     others.try_for_each(|export| export.write(report, &surroundings, folder))
+}
+
+/// Where a report is exported, with the lines of its tasks if its source is still there.
+fn surroundings_of(report: &Report) -> Surroundings {
+    Surroundings::here(report, intake::read(report.submission.path.as_ref()).ok().as_ref())
 }

@@ -2,14 +2,18 @@
 
 use std::path::Path;
 
-use crate::build::HandInProgram;
-use crate::convergence::{brief, print_sentences};
-use crate::error::Result;
-use crate::grade::{Grader, Options};
-use crate::reference::Oracle;
-use crate::report::pictures::{MOST, pictures, save};
-use crate::report::{Picture, Readers, Report, pages_beside, pictures_beside, write_pages};
-use crate::workspace::Workspace;
+use harness::build::HandInProgram;
+use harness::workspace::Workspace;
+use judge::convergence::brief;
+use judge::grade::{Grader, Options};
+use judge::pictures::{MOST, pictures};
+use judge::reference::Oracle;
+use present::convergence::print_sentences;
+use present::page::{Readers, pages_beside, pictures_beside, write_pages};
+use present::pictures::save;
+use verdict::error::Result;
+use verdict::pictures::Picture;
+use verdict::report::Report;
 
 /// Completes the report on a program, saves it again, and writes it as pages beside it. The points do not change.
 pub(super) fn complete(

@@ -5,18 +5,20 @@ use std::process::ExitCode;
 
 use arty::image::check_writable;
 
-use super::assignment::Assignment;
 use super::lateness::When;
 use super::least_sandbox::LeastSandbox;
 use super::{export, full_report, watch};
-use crate::build::Framework;
-use crate::error::{Error, Result};
-use crate::export::Export;
-use crate::grade::{Grader, Options};
-use crate::intake::{self, Finding, HandIn, Refusal};
-use crate::marks::Marks;
-use crate::report::{Progress, print_profile, print_sum, print_summary, remove_pages};
-use crate::workspace::Workspace;
+use classroom::marks::Marks;
+use harness::assignment::Assignment;
+use harness::build::Framework;
+use harness::workspace::Workspace;
+use intake::{self, HandIn, Refusal};
+use judge::grade::{Grader, Options};
+use present::export::Export;
+use present::page::remove_pages;
+use present::{Progress, print_profile, print_sum, print_summary};
+use verdict::error::{Error, Result};
+use verdict::submission::IntakeFinding;
 
 /// Grade one hand-in.
 #[derive(clap::Args)]
@@ -103,10 +105,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     progress.expect(grader.planned());
     let (mut report, program) = match outcome {
         Ok(submission) => grader.grade_and_keep(&submission, |check| progress.ended(check))?,
-        Err(refusal) => (grader.refuse(&path, &refusal)?, None),
+        Err(refusal) => (grader.refuse(&path, &(&refusal).into())?, None),
     };
     progress.finish();
-    report.submission.notes = notes.iter().map(Finding::from).collect();
+    report.submission.notes = notes.iter().map(IntakeFinding::from).collect();
     report.submission.explanations = explanations;
     Marks::open(&arguments.out)?.apply(&mut report);
     report.save(&file)?;

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use super::policy::policy;
-use crate::error::{Error, Result};
-use crate::policy::{Policy, Receipt, Standing, parse_received};
-use crate::rubric::Rubric;
-use crate::workspace::Workspace;
+use classroom::policy::{Policy, Receipt, Standing, parse_received};
+use harness::workspace::Workspace;
+use verdict::error::{Error, Result};
+use verdict::rubric::Rubric;
 
 /// The options that say when a hand-in came.
 #[derive(clap::Args)]

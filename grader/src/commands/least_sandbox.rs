@@ -1,6 +1,6 @@
 //! How good a sandbox has to be.
 
-use crate::sandbox::{Level, Limits};
+use harness::sandbox::{Level, Limits};
 
 /// The option that says how good a sandbox has to be.
 #[derive(clap::Args)]

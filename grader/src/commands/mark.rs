@@ -3,13 +3,14 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use super::assignment::Assignment;
-use crate::error::{Error, Result};
-use crate::intake;
-use crate::marks::{Mark, Marks, why_not};
-use crate::report::pictures::load;
-use crate::report::{Readers, Report, pages_beside, pictures_beside, print_summary, write_pages};
-use crate::workspace::Workspace;
+use classroom::marks::{Mark, Marks, why_not};
+use harness::assignment::Assignment;
+use harness::workspace::Workspace;
+use present::page::{Readers, pages_beside, pictures_beside, write_pages};
+use present::pictures::load;
+use present::print_summary;
+use verdict::error::{Error, Result};
+use verdict::report::Report;
 
 /// Record the points that a person gives for a task that is not graded automatically.
 #[derive(clap::Args)]
@@ -38,7 +39,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     }
     let hand_in = intake::take(std::slice::from_ref(&arguments.submission), "")?;
     for explanation in &hand_in.explanations {
-        eprintln!("{}: {} bytes", intake::harmless(&explanation.name), explanation.bytes);
+        eprintln!("{}: {} bytes", verdict::text::harmless(&explanation.name), explanation.bytes);
     }
     let submission = hand_in.outcome.map_err(|refusal| Error::file(&arguments.submission, refusal))?;
     std::fs::create_dir_all(&arguments.out).map_err(|error| Error::file(&arguments.out, error))?;

@@ -8,16 +8,16 @@ use jiff::Timestamp;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
-use super::assignment::Assignment;
 use super::lateness::standing;
 use super::policy::policy;
-use crate::build::{Framework, compile};
-use crate::error::{Error, Result};
-use crate::intake::md5_of;
-use crate::policy::Receipt;
-use crate::sandbox::Limits;
-use crate::submission::{FILE_NAME, Submission};
-use crate::workspace::Workspace;
+use classroom::policy::Receipt;
+use harness::assignment::Assignment;
+use harness::build::{Framework, compile};
+use harness::sandbox::Limits;
+use harness::workspace::Workspace;
+use intake::md5_of;
+use verdict::error::{Error, Result};
+use verdict::submission::FILE_NAME;
 
 /// Pack your hand-in: checks that it compiles, packs it with your explanation, prints the MD5 checksum.
 #[derive(clap::Args)]
@@ -48,7 +48,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let rubric = arguments.assignment.rubric(&workspace)?;
     let policy = policy(&workspace, &arguments.assignment.name, &rubric, arguments.course.as_deref())?;
     let file = arguments.file.clone().unwrap_or_else(|| workspace.student_file());
-    let submission = Submission::read(&file)?;
+    let submission = intake::read(&file)?;
     let mut entries = vec![(FILE_NAME.to_owned(), submission.source.clone().into_bytes())];
     for path in &arguments.explanation {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();

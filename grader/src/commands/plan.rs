@@ -6,11 +6,11 @@ use std::process::ExitCode;
 
 use arty::scene::{Scene, SceneDescription};
 
-use crate::checks::JudgedScene;
-use crate::error::{Error, Result};
-use crate::plan::{self, Entry};
-use crate::reference::{self, Reference};
-use crate::workspace::Workspace;
+use harness::workspace::Workspace;
+use judge::checks::JudgedScene;
+use judge::plan::{self, Entry};
+use judge::reference::{self, Reference};
+use verdict::error::{Error, Result};
 
 /// Say which checks mean something in a scene, and why others are left out.
 #[derive(clap::Args)]

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use crate::error::{Error, Result};
-use crate::policy::{Course, Policy};
-use crate::rubric::Rubric;
-use crate::workspace::Workspace;
+use classroom::policy::{Course, Policy};
+use harness::workspace::Workspace;
+use verdict::error::{Error, Result};
+use verdict::rubric::Rubric;
 
 /// The rubric's rules with the dates of a course: those of the file that is named, or else of the `course.yml` beside
 /// the rubric. `None` if the rubric has no rules.

@@ -8,14 +8,15 @@ use arty::integrator::Technique;
 use host::protocol::Switches;
 use serde::Serialize;
 
-use super::trusted::solution;
-use crate::build::{Framework, compile};
-use crate::error::{Error, Result};
-use crate::reference::SIZE;
-use crate::replay::{Path, Place, Vertex, follow, print, vertices};
-use crate::sandbox::Limits;
-use crate::submission::Submission;
-use crate::workspace::Workspace;
+use harness::build::{Framework, compile};
+use harness::sandbox::Limits;
+use harness::workspace::Workspace;
+use judge::reference::Oracle;
+use judge::reference::SIZE;
+use judge::replay::{Place, follow, vertices};
+use present::replay::print;
+use verdict::error::{Error, Result};
+use verdict::replay::{Path, Vertex};
 
 /// Follow one path of a hand-in again and show every call that it made. Reports give the command for their findings.
 #[derive(clap::Args)]
@@ -93,7 +94,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         sample: arguments.sample,
         switches: Switches { hits_off: arguments.hits_off, shadows_off: false },
     };
-    let submission = Submission::read(&arguments.submission)?;
+    let submission = intake::read(&arguments.submission)?;
     let program = compile(&Framework::build(&workspace)?, &submission.source, &Limits::default())?
         .map_err(|failure| Error::Input(format!("the hand-in does not compile:\n{}", failure.messages)))?;
     let hand_in = follow(&program, &place)?.map_err(|fault| Error::Input(format!("the hand-in: {fault}")))?;
@@ -103,7 +104,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     } else if !workspace.solution_file().is_file() {
         (None, Some("the solution's path is left out: there is no solution/ here"))
     } else {
-        let solution = solution(&workspace)?;
+        let solution = Oracle::required(&workspace)?;
         let path =
             follow(&solution, &place)?.map_err(|fault| Error::Harness(format!("the solution: {fault}")))?;
         (Some(path), None)
@@ -111,7 +112,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let weighted = own.as_ref().map(|path| vertices(path, &place));
 
     if let Some(file) = &arguments.json {
-        let command = place.command(&crate::replay::quote(&arguments.submission));
+        let command = place.command(&verdict::text::quote(&arguments.submission));
         let output = Output {
             schema: "arty-replay/1",
             command: &command,

@@ -10,11 +10,11 @@ use comfy_table::{Cell, CellAlignment, Color, ContentArrangement, Table};
 use notify_debouncer_mini::new_debouncer;
 use notify_debouncer_mini::notify::{self, RecursiveMode};
 
-use crate::error::{Error, Result};
-use crate::grade::{Grader, Options};
-use crate::report::{CheckResult, Report, Verdict};
-use crate::submission::Submission;
-use crate::workspace::Workspace;
+use harness::workspace::Workspace;
+use judge::grade::{Grader, Options};
+use verdict::error::{Error, Result};
+use verdict::report::{CheckResult, Report, Verdict};
+use verdict::submission::Submission;
 
 /// How long a file has to be left alone after a save.
 const QUIET: Duration = Duration::from_millis(150);
@@ -43,7 +43,7 @@ pub(super) fn watch(workspace: &Workspace, path: &Path, options: &Options, file:
     let grader = Grader::new(workspace, options)?;
     let mut last = None;
     loop {
-        match Submission::read(path) {
+        match intake::read(path) {
             Ok(submission) if last.as_ref() == Some(&submission.hash()) => {}
             Ok(submission) => {
                 last = Some(submission.hash());

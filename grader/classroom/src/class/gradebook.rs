@@ -1,0 +1,268 @@
+//! The class as a table: `gradebook.csv`, and `class.json` with everything.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::Member;
+use super::record::Record;
+use super::similar::Group;
+use crate::marks::Marks;
+use crate::policy::{Lateness, Policy, Receipt, Standing};
+use crate::table::{Table, no_formula};
+use verdict::error::Result;
+use verdict::submission::IntakeFinding;
+
+/// The version of the format of `class.json`.
+const SCHEMA: &str = "arty-class/1";
+
+/// How a row came to its points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum State {
+    /// It was compiled, or tried to.
+    Graded,
+    /// It could not be taken in.
+    Refused,
+    /// Nothing was handed in.
+    Missing,
+    /// The grader or the machine failed, and there is no earlier result.
+    Harness,
+}
+
+/// What is known of one student or hand-in.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// The student, and the name of the folder below `hand-ins/`.
+    pub key: String,
+    /// Family name.
+    pub last_name: String,
+    /// Given name.
+    pub first_name: String,
+    /// Login.
+    pub login: String,
+    /// E-mail address.
+    pub email: String,
+    /// Numbers in course systems.
+    pub numbers: Vec<String>,
+    /// False if it is nobody's on the roster.
+    pub on_roster: bool,
+    /// The name of the hand-in's folder or file.
+    pub sent: String,
+    /// How it came to its points.
+    pub state: State,
+    /// Why points are missing: a code and a sentence.
+    pub reason: Option<IntakeFinding>,
+    /// What is odd about it.
+    pub notes: Vec<IntakeFinding>,
+    /// Raw points of each task.
+    pub tasks: BTreeMap<String, Option<f64>>,
+    /// The sum of raw points.
+    pub raw: Option<f64>,
+    /// When it came, as it was recorded.
+    pub received_at: Option<String>,
+    /// What the policy says.
+    pub lateness: Option<Lateness>,
+    /// The points that count, of the tasks that are graded automatically or have been marked.
+    pub points: Option<f64>,
+    /// Written explanations, by name.
+    pub explanations: Vec<String>,
+    /// When it was graded.
+    pub graded_at: Option<String>,
+    /// BLAKE3 of the source.
+    pub source: String,
+    /// True if these are earlier points, since the grader failed this time.
+    pub kept: bool,
+}
+
+impl Row {
+    fn new(member: &Member, state: State) -> Self {
+        let student = member.student.clone().unwrap_or_default();
+        Self {
+            key: member.key.clone(),
+            last_name: student.last_name,
+            first_name: student.first_name,
+            login: student.login,
+            email: student.email,
+            numbers: student.numbers,
+            on_roster: member.student.is_some(),
+            sent: member.label.clone(),
+            state,
+            reason: None,
+            notes: Vec::new(),
+            tasks: BTreeMap::new(),
+            raw: None,
+            received_at: None,
+            lateness: None,
+            points: None,
+            explanations: Vec::new(),
+            graded_at: None,
+            source: String::new(),
+            kept: false,
+        }
+    }
+
+    /// Of somebody who handed in nothing.
+    pub(super) fn missing(member: &Member) -> Self {
+        let reason =
+            IntakeFinding { code: "missing".to_owned(), message: "nothing was handed in".to_owned() };
+        Self { reason: Some(reason), raw: Some(0.0), points: Some(0.0), ..Self::new(member, State::Missing) }
+    }
+
+    /// Of a hand-in with which the grader failed.
+    pub(super) fn harness(member: &Member, reason: IntakeFinding) -> Self {
+        Self { reason: Some(reason), ..Self::new(member, State::Harness) }
+    }
+
+    /// Of a hand-in that was taken in.
+    pub(super) fn of_record(
+        member: &Member,
+        record: &Record,
+        marks: &Marks,
+        lateness: Option<Lateness>,
+        receipt: Option<&Receipt>,
+        policy: Option<&Policy>,
+    ) -> Self {
+        let refused = record.report.is_empty();
+        let mut reason = record.reason.clone();
+        if let Some(late) = lateness.as_ref().filter(|lateness| lateness.standing == Standing::NotAccepted) {
+            let message = format!("not accepted: {} late", late.late_by_text());
+            reason = Some(IntakeFinding { code: "late".to_owned(), message });
+        }
+        let (mut tasks, mut raw) = (record.tasks.clone(), record.earned);
+        for mark in marks.of(&record.source) {
+            raw += mark.points;
+            tasks.insert(mark.task.clone(), Some(mark.points));
+        }
+        let points = match (policy, &lateness) {
+            (Some(policy), Some(lateness)) => policy.points(raw, lateness),
+            _ => raw,
+        };
+        Self {
+            reason,
+            notes: record.notes.clone(),
+            tasks,
+            raw: Some(raw),
+            received_at: receipt.and_then(|receipt| receipt.received_at).map(|time| time.to_string()),
+            lateness,
+            points: Some(points),
+            explanations: record.explanations.iter().map(|explanation| explanation.name.clone()).collect(),
+            graded_at: Some(record.graded_at.clone()),
+            source: record.source.clone(),
+            ..Self::new(member, if refused { State::Refused } else { State::Graded })
+        }
+    }
+
+    /// The row for a terminal.
+    pub(super) fn line(&self) -> String {
+        let points = self.points.map_or_else(|| "–".to_owned(), |points| points.to_string());
+        let reason = self.reason.as_ref().map_or("", |reason| reason.code.as_str());
+        let kept = if self.kept { " (earlier result kept)" } else { "" };
+        format!("{:<24} {points:>5}  {reason}{kept}", verdict::text::harmless(&self.key))
+    }
+
+    /// What a student is told in a course system: points by task, and why some are missing.
+    pub(super) fn feedback(&self) -> String {
+        let mut parts: Vec<String> = self
+            .tasks
+            .iter()
+            .filter_map(|(task, points)| points.map(|points| format!("{task}: {points}")))
+            .collect();
+        if let Some(lateness) = self.lateness.as_ref().filter(|lateness| lateness.standing == Standing::Late)
+        {
+            parts.push(format!("{} late: × {}", lateness.late_by_text(), lateness.factor));
+        }
+        parts.extend(self.reason.as_ref().map(|reason| format!("{}: {}", reason.code, reason.message)));
+        parts.join("; ")
+    }
+}
+
+/// Writes `gradebook.csv`. Texts that a spreadsheet would take for formulas begin with a `'`.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn save_gradebook(path: &Path, rows: &[&Row], tasks: &[String]) -> Result<()> {
+    let names = |list: &[&str]| list.iter().map(|&name| name.to_owned()).collect::<Vec<String>>();
+    let mut header =
+        names(&["student", "last_name", "first_name", "login", "email", "number", "state", "reason"]);
+    header.extend(tasks.iter().cloned());
+    header.extend(names(&[
+        "raw",
+        "received_at",
+        "late_by",
+        "factor",
+        "points",
+        "lateness",
+        "notes",
+        "explanation",
+        "sent",
+        "on_roster",
+        "graded_at",
+    ]));
+    let mut table = Table::new(header);
+    for row in rows {
+        let number = |number: Option<f64>| number.map_or_else(String::new, |number| number.to_string());
+        let late = row.lateness.as_ref();
+        let codes: Vec<&str> = row.notes.iter().map(|note| note.code.as_str()).collect();
+        let text = |text: &str| no_formula(text);
+        let standing = late.map_or_else(String::new, |lateness| {
+            let word = serde_json::to_value(lateness.standing).ok();
+            let word = word.as_ref().and_then(|word| word.as_str()).unwrap_or_default().to_owned();
+            if lateness.why.is_empty() { word } else { format!("{word} ({})", lateness.why) }
+        });
+        let mut cells = vec![
+            text(&row.key),
+            text(&row.last_name),
+            text(&row.first_name),
+            text(&row.login),
+            text(&row.email),
+            text(&row.numbers.join(" ")),
+            format!("{:?}", row.state).to_lowercase() + if row.kept { " (kept)" } else { "" },
+            row.reason.as_ref().map_or_else(String::new, |reason| reason.code.clone()),
+        ];
+        cells.extend(tasks.iter().map(|task| number(row.tasks.get(task).copied().flatten())));
+        cells.extend([
+            number(row.raw),
+            row.received_at.clone().unwrap_or_default(),
+            late.map_or_else(String::new, Lateness::late_by_text),
+            number(late.map(|lateness| lateness.factor)),
+            number(row.points),
+            text(&standing),
+            codes.join(" "),
+            text(&row.explanations.join(", ")),
+            text(&row.sent),
+            if row.on_roster { "yes" } else { "no" }.to_owned(),
+            row.graded_at.clone().unwrap_or_default(),
+        ]);
+        table.push(cells);
+    }
+    table.save(path)
+}
+
+/// All of a class, for staff.
+#[derive(Serialize)]
+struct ClassFile<'a> {
+    schema: &'a str,
+    assignment: &'a str,
+    automatic_max: f64,
+    provenance: &'a BTreeMap<String, String>,
+    rows: &'a [Row],
+    similar: &'a [Group],
+}
+
+/// Writes `class.json`.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn save_class(
+    path: &Path,
+    assignment: (&str, f64),
+    provenance: &BTreeMap<String, String>,
+    rows: &[Row],
+    similar: &[Group],
+) -> Result<()> {
+    let (assignment, automatic_max) = assignment;
+    let file = ClassFile { schema: SCHEMA, assignment, automatic_max, provenance, rows, similar };
+    Ok(arty::image::write_aside(path, |writer| serde_json::to_writer_pretty(writer, &file))?)
+}

@@ -1,0 +1,189 @@
+//! Which hand-ins lie in a folder: as Moodle and ILIAS pack them, or one file, folder or archive for each student.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use verdict::error::{Error, Result};
+
+/// What a name says of who handed in.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Identity {
+    /// The login.
+    pub login: Option<String>,
+    /// The course system's number of the student.
+    pub number: Option<String>,
+    /// First and last name in some order.
+    pub full_name: Option<String>,
+}
+
+/// What one student sent.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Sent {
+    /// The name of the folder, or of the file without its ending.
+    pub label: String,
+    /// What it says.
+    pub identity: Identity,
+    /// The files and folders.
+    pub paths: Vec<PathBuf>,
+}
+
+/// All hand-ins in a folder, in the order of their names.
+///
+/// # Errors
+/// If it is no folder, cannot be read, or holds none.
+pub fn hand_ins(folder: &Path) -> Result<Vec<Sent>> {
+    if !folder.is_dir() {
+        return Err(Error::file(folder, "this is no folder; unpack a course system's archive first"));
+    }
+    let folder = inner_folder(folder)?;
+    let mut found: BTreeMap<String, Sent> = BTreeMap::new();
+    for path in entries(&folder)? {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let label = label(&name, path.is_dir());
+        let identity = identity(&label);
+        // All that Moodle keeps of a student has the same number.
+        let key = identity.number.clone().unwrap_or_else(|| label.clone());
+        let sent = found.entry(key).or_insert(Sent { label, identity, paths: Vec::new() });
+        sent.paths.push(path);
+    }
+    if found.is_empty() {
+        return Err(Error::file(&folder, "there are no hand-ins in this folder"));
+    }
+    Ok(found.into_values().collect())
+}
+
+/// The folder that the hand-ins lie in: course systems pack them in folders of the exercise's and assignment's name.
+/// Only what carries a course system's numbers, some folders down, is proof that those above are not a student's.
+fn inner_folder(folder: &Path) -> Result<PathBuf> {
+    let mut inner = folder.to_owned();
+    for _ in 0..4 {
+        let below = entries(&inner)?;
+        let numbered =
+            |path: &PathBuf| identity(&path.file_name().unwrap_or_default().to_string_lossy()).number;
+        if below.iter().any(|path| numbered(path).is_some()) {
+            return Ok(inner);
+        }
+        match below.as_slice() {
+            [only] if only.is_dir() => inner.clone_from(only),
+            _ => break,
+        }
+    }
+    Ok(folder.to_owned())
+}
+
+/// Folders and files that can be part of a hand-in, in order. Tables and notes of the staff are none.
+fn entries(folder: &Path) -> Result<Vec<PathBuf>> {
+    let list = std::fs::read_dir(folder).map_err(|error| Error::file(folder, error))?;
+    let mut paths = Vec::new();
+    for entry in list {
+        let path = entry.map_err(|error| Error::file(folder, error))?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+        let of_staff =
+            [".csv", ".xlsx", ".xls", ".ods", ".yml", ".json"].iter().any(|end| name.ends_with(end));
+        if !name.starts_with('.') && !of_staff {
+            paths.push(path);
+        }
+    }
+    paths.sort();
+    Ok(paths)
+}
+
+/// A file's name without its ending.
+fn label(name: &str, is_folder: bool) -> String {
+    if is_folder {
+        return name.to_owned();
+    }
+    let lower = name.to_lowercase();
+    for end in [".tar.gz", ".tgz", ".tar", ".zip", ".rs", ".txt", ".md", ".pdf", ".7z", ".rar"] {
+        if lower.ends_with(end) && name.is_char_boundary(name.len() - end.len()) && name.len() > end.len() {
+            return name[..name.len() - end.len()].to_owned();
+        }
+    }
+    name.to_owned()
+}
+
+/// What a name says of its student.
+fn identity(label: &str) -> Identity {
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    // Moodle: `Full Name_1234567_assignsubmission_file…`
+    if let Some((who, _)) = label.split_once("_assignsubmission_")
+        && let Some((name, number)) = who.rsplit_once('_')
+        && is_number(number)
+    {
+        return Identity { login: None, number: Some(number.to_owned()), full_name: Some(name.to_owned()) };
+    }
+    // ILIAS: `Last_First_login_1234`
+    let parts: Vec<&str> = label.split('_').collect();
+    if let [names @ .., login, number] = parts.as_slice()
+        && names.len() >= 2
+        && is_number(number)
+    {
+        return Identity {
+            login: Some((*login).to_owned()),
+            number: Some((*number).to_owned()),
+            full_name: Some(names.join(" ")),
+        };
+    }
+    Identity { login: Some(label.to_owned()), number: None, full_name: Some(label.replace('_', " ")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(files: &[&str]) -> Vec<(String, usize)> {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        for file in files {
+            let path = folder.path().join(file);
+            std::fs::create_dir_all(path.parent().expect("it has one")).expect("it can be made");
+            std::fs::write(path, "").expect("it can be written");
+        }
+        let sent = hand_ins(folder.path()).expect("there are some");
+        sent.into_iter().map(|sent| (sent.identity.number.unwrap_or(sent.label), sent.paths.len())).collect()
+    }
+
+    fn expect(files: &[&str], expected: &[(&str, usize)]) {
+        let expected: Vec<_> = expected.iter().map(|&(name, count)| (name.to_owned(), count)).collect();
+        assert_eq!(labels(files), expected, "{files:?}");
+    }
+
+    #[test]
+    fn the_layouts_of_course_systems_are_recognised() {
+        // Moodle, in folders.
+        expect(
+            &[
+                "Ann Lee_11_assignsubmission_file_/render_pt.rs",
+                "Ann Lee_11_assignsubmission_onlinetext_/onlinetext.html",
+                "Bob_Ray Öz_12_assignsubmission_file/x.zip",
+                "grades.csv",
+            ],
+            &[("11", 2), ("12", 1)],
+        );
+        // Moodle, without.
+        expect(
+            &["Ann Lee_11_assignsubmission_file_render_pt.rs", "Ann Lee_11_assignsubmission_file_5.2a.pdf"],
+            &[("11", 2)],
+        );
+        // ILIAS.
+        let ilias = ["Ex/Sheet 5/Lee_Ann_al1_301/render_pt.rs", "Ex/Sheet 5/de_la_Cruz_Bo_bc2_302/a.zip"];
+        expect(&ilias, &[("301", 1), ("302", 1)]);
+        // One of each for each student.
+        expect(
+            &["ann/src/render_pt.rs", "bob.zip", "cem.rs", "cem.pdf"],
+            &[("ann", 1), ("bob", 1), ("cem", 2)],
+        );
+        expect(&["ann/src/render_pt.rs"], &[("ann", 1)]);
+        expect(&["ann/src/render_pt.rs", "ann/doc/a.txt"], &[("ann", 1)]);
+    }
+
+    #[test]
+    fn names_say_who_it_is() {
+        let ilias = identity("de_la_Cruz_Bo_bc2_302");
+        assert_eq!(
+            (ilias.login.as_deref(), ilias.full_name.as_deref()),
+            (Some("bc2"), Some("de la Cruz Bo"))
+        );
+        let moodle = identity("Ann Lee_11_assignsubmission_file_");
+        assert_eq!((moodle.login, moodle.full_name.as_deref()), (None, Some("Ann Lee")));
+    }
+}

@@ -1,0 +1,99 @@
+//! What the page of a class takes from the records of its hand-ins: little of each, so that a large class fits.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use crate::class::gradebook::{Row, State};
+use crate::class::record::{Record, Shelf};
+use verdict::report::Verdict;
+
+/// What is kept of one hand-in.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Digest {
+    /// How long compiling and running took, in seconds.
+    pub(super) seconds: Option<f64>,
+    /// Time for a given noise; see [`Record::work`].
+    pub(super) work: Option<f64>,
+    /// Its place in [`Digests::alike`]; none if it passes everything.
+    pub(super) group: Option<usize>,
+    /// True if its pages are there.
+    pub(super) pages: bool,
+}
+
+/// How often a check was run and passed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Rate {
+    pub(super) run: usize,
+    pub(super) passed: usize,
+}
+
+/// Hand-ins that share their likeliest mistake.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Alike {
+    /// What they share.
+    pub(super) what: String,
+    /// True if that is a likely cause, false if it is only the set of checks that failed.
+    pub(super) is_cause: bool,
+    /// Their rows.
+    pub(super) rows: Vec<usize>,
+}
+
+/// What is kept of a class.
+#[derive(Debug, Default)]
+pub(super) struct Digests {
+    /// In the order of the rows.
+    pub(super) of_rows: Vec<Digest>,
+    /// By task and check.
+    pub(super) checks: BTreeMap<String, Rate>,
+    /// The largest group first.
+    pub(super) alike: Vec<Alike>,
+}
+
+impl Digests {
+    /// Reads one record after the other.
+    pub(super) fn read(out: &Path, rows: &[Row]) -> Self {
+        let mut digests = Self::default();
+        let mut groups: BTreeMap<(bool, String), Vec<usize>> = BTreeMap::new();
+        for (index, row) in rows.iter().enumerate() {
+            let shelf = Shelf::new(out, &row.key);
+            let record = (row.state == State::Graded).then(|| shelf.record_alone()).flatten();
+            let pages = record.is_some() && shelf.pages().iter().all(|page| page.is_file());
+            let mut digest = Digest { pages, ..Digest::default() };
+            if let Some(record) = &record {
+                digest.seconds = Some(record.seconds);
+                digest.work = record.work;
+                let run = record.checks.iter().filter(|(_, verdict)| **verdict != Verdict::LeftOut);
+                for (check, verdict) in run {
+                    let rate = digests.checks.entry(check.clone()).or_default();
+                    rate.run += 1;
+                    rate.passed += usize::from(*verdict == Verdict::Pass);
+                }
+                if let Some(shared) = shared(record) {
+                    groups.entry(shared).or_default().push(index);
+                }
+            }
+            digests.of_rows.push(digest);
+        }
+        digests.alike =
+            groups.into_iter().map(|((is_cause, what), rows)| Alike { what, is_cause, rows }).collect();
+        digests.alike.sort_by_key(|group| std::cmp::Reverse(group.rows.len()));
+        for (place, group) in digests.alike.iter().enumerate() {
+            group.rows.iter().for_each(|&row| digests.of_rows[row].group = Some(place));
+        }
+        digests
+    }
+}
+
+/// By what a hand-in is grouped: its likeliest mistake, else the checks that it does not pass; `None` if it passes all.
+fn shared(record: &Record) -> Option<(bool, String)> {
+    if let Some(mistake) = &record.mistake {
+        return Some((true, mistake.clone()));
+    }
+    if let Some(reason) = record.reason.as_ref().filter(|_| record.checks.is_empty()) {
+        return Some((false, reason.message.clone()));
+    }
+    let lacking = |verdict: Verdict| !matches!(verdict, Verdict::Pass | Verdict::LeftOut);
+    let failed = record.checks.iter().filter(|(_, verdict)| lacking(**verdict));
+    let failed: Vec<&str> = failed.map(|(check, _)| check.as_str()).collect();
+    (!failed.is_empty()).then(|| (false, failed.join(", ")))
+}

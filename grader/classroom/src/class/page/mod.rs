@@ -1,0 +1,106 @@
+//! The class as one self-contained page, for staff: a table that can be sorted, which task was hard, who made the same
+//! mistake, what is still to be marked.
+//!
+//! Records are read one after the other, and thumbnails go straight to the file: of a hand-in little more than its row is
+//! in memory. Everything that others have written is escaped by the template; names of folders are such that they need
+//! no more than that in a link (see [`crate::class::Member::key`]).
+
+mod digest;
+mod sections;
+mod table;
+
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use maud::html;
+
+use super::gradebook::Row;
+use super::record::Shelf;
+use digest::Digests;
+use present::page::document;
+use verdict::error::Result;
+use verdict::rubric::Rubric;
+
+const SCRIPT: &str = include_str!("class.js");
+
+/// What the page is made of.
+pub struct ClassPage<'a> {
+    /// What was asked for.
+    pub rubric: &'a Rubric,
+    /// A row for each member.
+    pub rows: &'a [Row],
+    /// Scores that are not what they were.
+    pub changes: &'a [String],
+    /// How many groups of hand-ins are alike.
+    pub similar: usize,
+    /// The folder of the results.
+    pub out: &'a Path,
+}
+
+impl ClassPage<'_> {
+    /// Writes the page.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn save(&self, path: &Path) -> Result<()> {
+        let digests = Digests::read(self.out, self.rows);
+        Ok(arty::image::write_aside(path, |file| self.write(&digests, file))?)
+    }
+
+    fn write(&self, digests: &Digests, file: &mut BufWriter<&std::fs::File>) -> std::io::Result<()> {
+        let title = format!("{}, {} in the class", self.rubric.assignment, self.rows.len());
+        file.write_all(document::begin(&title, SCRIPT).as_bytes())?;
+        for section in [
+            sections::header(self),
+            sections::changes(self),
+            sections::points(self),
+            table::table(self, digests),
+            sections::alike(self, digests),
+        ] {
+            file.write_all(section.into_string().as_bytes())?;
+        }
+        self.wall(digests, file)?;
+        let after = [sections::to_mark(self), sections::hard(self, digests), sections::speed(self, digests)];
+        for section in after {
+            file.write_all(section.into_string().as_bytes())?;
+        }
+        file.write_all(document::end(SCRIPT).as_bytes())
+    }
+
+    /// A small picture of each hand-in, those with the fewest points first.
+    fn wall(&self, digests: &Digests, file: &mut BufWriter<&std::fs::File>) -> std::io::Result<()> {
+        let mut order: Vec<usize> = (0..self.rows.len()).collect();
+        order.sort_by(|&a, &b| {
+            let points = |index: usize| self.rows[index].raw.unwrap_or(0.0);
+            points(a).total_cmp(&points(b))
+        });
+        let mut begun = false;
+        for index in order {
+            let row = &self.rows[index];
+            // One that is cut off is a broken picture, no more.
+            let Ok(png) = std::fs::read(Shelf::new(self.out, &row.key).thumbnail()) else { continue };
+            if !begun {
+                let words = "The same scene by everybody, with multiple importance sampling; the fewest points come first.";
+                let begin = html! { h2 { "Pictures" } p.soft { (words) } };
+                write!(file, "{}<div class=\"wall\">", begin.into_string())?;
+                begun = true;
+            }
+            let source = format!("data:image/png;base64,{}", STANDARD.encode(&png));
+            let inside = html! {
+                img src=(source) alt={ "picture of " (row.key) };
+                span { (row.key) } " " span.soft { (table::points_of(row)) }
+            };
+            let tile = html! {
+                @if digests.of_rows[index].pages { a href=(table::link(row, "report-tutor.html")) { (inside) } }
+                @else { span { (inside) } }
+            };
+            file.write_all(tile.into_string().as_bytes())?;
+        }
+        if begun { file.write_all(b"</div>") } else { Ok(()) }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,357 @@
+//! Taking in and grading all hand-ins of a class, as many at once as there are cores.
+//!
+//! Each hand-in renders with one thread, so that it takes one core and leaves the others alone: the times of several
+//! are those that each would have by itself, and no core waits while rustc or the grader's own part runs. Verdicts
+//! depend on seeds alone, not on how many are graded at once or in which order.
+
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{Sender, channel};
+use std::time::{Duration, Instant};
+
+use super::gradebook::{Row, State};
+use super::progress::{Line, Progress};
+use super::record::{Record, Shelf};
+use super::similar::{Fingerprint, Starter};
+use super::{Class, Member, pages};
+use crate::marks::Marks;
+use crate::policy::{Lateness, Policy, Receipt, the_one_that_counts};
+use harness::tree_hash::hash_judging;
+use harness::workspace::Workspace;
+use intake::{self, HandIn};
+use judge::grade::{Grader, Options};
+use judge::reference::Oracle;
+use verdict::error::{Error, Result};
+use verdict::submission::IntakeFinding;
+
+/// How a class is graded.
+#[derive(Clone, Debug)]
+pub struct RunOptions {
+    /// What each hand-in is graded by.
+    pub grade: Options,
+    /// How many at once.
+    pub jobs: usize,
+    /// The folder of the results.
+    pub out: PathBuf,
+    /// True if hand-ins are graded again of which nothing has changed.
+    pub regrade: bool,
+    /// True if each hand-in gets its pages, and pictures on them.
+    pub pages: bool,
+}
+
+/// What has become of a class.
+pub struct Outcome {
+    /// A row for each member, in their order.
+    pub rows: Vec<Row>,
+    /// What is needed to compare hand-ins, by row key.
+    pub fingerprints: BTreeMap<String, Fingerprint>,
+    /// Scores that are not what they were, for people.
+    pub changes: Vec<String>,
+    /// How many were graded now.
+    pub graded: usize,
+    /// How many were as they were.
+    pub unchanged: usize,
+    /// What all verdicts rest on.
+    pub provenance: BTreeMap<String, String>,
+}
+
+/// All that workers share.
+struct Shared<'a> {
+    workspace: &'a Workspace,
+    /// What students call their file.
+    student_file: String,
+    grader: Grader,
+    class: &'a Class,
+    policy: Option<&'a Policy>,
+    options: &'a RunOptions,
+    starter_text: String,
+    starter: Starter,
+    /// Hash of all that the verdicts depend on and that is the same for all.
+    base: blake3::Hash,
+    tasks: Vec<String>,
+    /// What a person has marked.
+    marks: Marks,
+}
+
+/// The hand-in of a member that counts.
+struct Taken {
+    hand_in: HandIn,
+    receipt: Option<Receipt>,
+    lateness: Option<Lateness>,
+}
+
+/// What is known of a hand-in once it is taken in and graded.
+struct Settled {
+    record: Record,
+    fingerprint: Option<Fingerprint>,
+    lateness: Option<Lateness>,
+    receipt: Option<Receipt>,
+    graded: bool,
+}
+
+/// What a worker sends of one hand-in.
+struct Done {
+    index: usize,
+    row: Row,
+    fingerprint: Option<Fingerprint>,
+    change: Option<String>,
+    graded: bool,
+}
+
+/// Grades a class. `save` is called with the rows so far every few seconds, so that there is a table at any time.
+///
+/// # Errors
+/// If nothing at all can be graded. What goes wrong with one hand-in is in its row.
+pub fn run(
+    workspace: &Workspace,
+    class: &Class,
+    policy: Option<&Policy>,
+    options: &RunOptions,
+    mut save: impl FnMut(&[&Row]) -> Result<()>,
+) -> Result<Outcome> {
+    let grader = Grader::new(workspace, &options.grade)?;
+    let starter_file = workspace.student_file();
+    let starter_text =
+        std::fs::read_to_string(&starter_file).map_err(|error| Error::file(&starter_file, error))?;
+    let student_file = starter_file.strip_prefix(workspace.root()).unwrap_or(&starter_file);
+    let shared = Shared {
+        workspace,
+        student_file: student_file.display().to_string(),
+        marks: Marks::open(&options.out)?,
+        base: hash_of_inputs(workspace, &grader, &options.grade)?,
+        tasks: grader.rubric().tasks.iter().filter(|task| !task.manual).map(|task| task.id.clone()).collect(),
+        starter: Starter::new(&starter_text),
+        starter_text,
+        grader,
+        class,
+        policy,
+        options,
+    };
+    let count = class.members.len();
+    let progress = Progress::new(count);
+    let next = AtomicUsize::new(0);
+    let mut rows: Vec<Option<Row>> = vec![None; count];
+    let mut outcome = Outcome {
+        rows: Vec::new(),
+        fingerprints: BTreeMap::new(),
+        changes: Vec::new(),
+        graded: 0,
+        unchanged: 0,
+        provenance: shared.grader.provenance().clone(),
+    };
+    std::thread::scope(|scope| -> Result<()> {
+        let (sender, results) = channel();
+        for _ in 0..options.jobs.min(count) {
+            let (sender, shared, next, line) = (sender.clone(), &shared, &next, progress.line());
+            scope.spawn(move || work(shared, next, line, &sender));
+        }
+        drop(sender);
+        let mut saved = Instant::now();
+        for (number, done) in results.into_iter().enumerate() {
+            progress.ended(number + 1, &done.row.line());
+            outcome.graded += usize::from(done.graded);
+            outcome.unchanged += usize::from(!done.graded && done.row.state == State::Graded);
+            outcome.changes.extend(done.change);
+            outcome.fingerprints.extend(done.fingerprint.map(|print| (done.row.key.clone(), print)));
+            rows[done.index] = Some(done.row);
+            if saved.elapsed() > Duration::from_secs(5) {
+                save(&rows.iter().flatten().collect::<Vec<_>>())?;
+                saved = Instant::now();
+            }
+        }
+        Ok(())
+    })?;
+    progress.finish();
+    outcome.rows = rows.into_iter().flatten().collect();
+    outcome.changes.sort();
+    Ok(outcome)
+}
+
+/// Takes one hand-in after the other until there is none left, or nobody listens any more.
+fn work(shared: &Shared<'_>, next: &AtomicUsize, mut line: Line, results: &Sender<Done>) {
+    loop {
+        let index = next.fetch_add(1, Ordering::Relaxed);
+        let Some(member) = shared.class.members.get(index) else { return };
+        line.begin(&member.key);
+        if results.send(shared.settle(index, member, &mut line)).is_err() {
+            return;
+        }
+    }
+}
+
+impl Shared<'_> {
+    /// Everything about one member of the class.
+    fn settle(&self, index: usize, member: &Member, line: &mut Line) -> Done {
+        let shelf = Shelf::new(&self.options.out, &member.key);
+        let before = shelf.load();
+        // A fault of the grader in one hand-in must not cost the others theirs.
+        let attempt = catch_unwind(AssertUnwindSafe(|| self.attempt(member, &shelf, before.as_ref(), line)))
+            .unwrap_or_else(|_| Err(Error::Harness("the grader panicked".to_owned())));
+        match attempt {
+            Ok(Some(settled)) => {
+                self.pages(member, &shelf, &settled.record);
+                let Settled { record, fingerprint, lateness, receipt, graded } = settled;
+                let change = before.as_ref().and_then(|before| change(&member.key, before, &record));
+                let row =
+                    Row::of_record(member, &record, &self.marks, lateness, receipt.as_ref(), self.policy);
+                Done { index, row, fingerprint, change, graded }
+            }
+            Ok(None) => {
+                Done { index, row: Row::missing(member), fingerprint: None, change: None, graded: false }
+            }
+            Err(error) => {
+                let trouble = IntakeFinding { code: "harness".to_owned(), message: error.to_string() };
+                let row = match before {
+                    // The last good result is kept.
+                    Some(record) => {
+                        let receipt = member.receipts.last();
+                        let lateness = self
+                            .policy
+                            .map(|policy| policy.judge(&member.names(), receipt, &record.checksums));
+                        Row {
+                            kept: true,
+                            reason: Some(trouble),
+                            ..Row::of_record(member, &record, &self.marks, lateness, receipt, self.policy)
+                        }
+                    }
+                    None => Row::harness(member, trouble),
+                };
+                Done { index, row, fingerprint: None, change: None, graded: false }
+            }
+        }
+    }
+
+    /// Makes the pages of a hand-in. They decide nothing: what goes wrong with them is said, and changes no row.
+    fn pages(&self, member: &Member, shelf: &Shelf, record: &Record) {
+        let made = match (self.options.pages, record.report.is_empty()) {
+            (true, false) => pages::make(shelf, record, &self.marks, &self.student_file),
+            _ => pages::clear(shelf),
+        };
+        if let Err(error) = made {
+            eprintln!("warning: the page of {}: {error}", verdict::text::harmless(&member.key));
+        }
+    }
+
+    /// Takes in and grades; `None` if there is nothing.
+    fn attempt(
+        &self,
+        member: &Member,
+        shelf: &Shelf,
+        before: Option<&Record>,
+        line: &mut Line,
+    ) -> Result<Option<Settled>> {
+        let Some(Taken { hand_in, receipt, lateness }) = self.take(member)? else { return Ok(None) };
+        let source = hand_in.outcome.as_ref().map_or("", |submission| submission.source.as_str());
+        let key = self.key(source);
+        let fingerprint = hand_in.outcome.is_ok().then(|| self.starter.fingerprint(source));
+        let mut record = Record::new(key, &hand_in, &self.tasks, None);
+        let mut graded = match &hand_in.outcome {
+            Err(_) => None,
+            Ok(_) if !self.options.regrade && before.is_some_and(|before| before.key == record.key) => {
+                // What came with the source may have changed, though the verdicts have not.
+                if let Some(before) = before {
+                    let Record { notes, explanations, checksums, .. } = record;
+                    record = Record { notes, explanations, checksums, ..before.clone() };
+                }
+                return Ok(Some(Settled { record, fingerprint, lateness, receipt, graded: false }));
+            }
+            Ok(submission) => Some(self.grader.grade_and_keep(submission, |check| line.check(check))?),
+        };
+        let report = graded.as_ref().map(|(report, _)| report);
+        if let Some(report) = report {
+            record = Record::new(record.key, &hand_in, &self.tasks, Some(report));
+        }
+        pages::clear(shelf)?;
+        shelf.save(&mut record, report)?;
+        if let (Some((report, program)), true) = (&mut graded, self.options.pages) {
+            match pages::complete(self.workspace, &self.grader, program.as_ref(), report, shelf) {
+                Ok(()) => shelf.save(&mut record, Some(report))?,
+                Err(error) => {
+                    let whose = verdict::text::harmless(&member.key);
+                    eprintln!("warning: the report of {whose} is not complete: {error}");
+                }
+            }
+        }
+        Ok(Some(Settled { record, fingerprint, lateness, receipt, graded: graded.is_some() }))
+    }
+
+    /// The hand-in that counts, of those that a member sent.
+    fn take(&self, member: &Member) -> Result<Option<Taken>> {
+        let names = member.names();
+        let paths_of = |receipt: &Receipt| {
+            let named = !receipt.path.is_empty();
+            if named { vec![self.class.folder.join(&receipt.path)] } else { member.paths.clone() }
+        };
+        let mut taken: BTreeMap<String, HandIn> = BTreeMap::new();
+        for receipt in &member.receipts {
+            let paths = paths_of(receipt);
+            if !paths.is_empty() {
+                taken.insert(receipt.path.clone(), intake::take(&paths, &self.starter_text)?);
+            }
+        }
+        let there: Vec<Receipt> =
+            member.receipts.iter().filter(|receipt| taken.contains_key(&receipt.path)).cloned().collect();
+        let counts = self.policy.and_then(|policy| {
+            the_one_that_counts(policy, &names, &there, |receipt| taken[&receipt.path].checksums.clone())
+        });
+        if let Some((receipt, lateness)) = counts {
+            let receipt = receipt.clone();
+            return Ok(taken.remove(&receipt.path).map(|hand_in| Taken {
+                hand_in,
+                receipt: Some(receipt),
+                lateness: Some(lateness),
+            }));
+        }
+        if member.paths.is_empty() {
+            return Ok(None);
+        }
+        let hand_in = intake::take(&member.paths, &self.starter_text)?;
+        let lateness = self.policy.map(|policy| policy.judge(&names, None, &hand_in.checksums));
+        Ok(Some(Taken { hand_in, receipt: None, lateness }))
+    }
+
+    fn key(&self, source: &str) -> String {
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(self.base.as_bytes()).update(source.as_bytes());
+        hasher.finalize().to_hex().to_string()
+    }
+}
+
+/// Over the framework, what judges, the solution, rubric, scenes, references and seed; not over the policy, which changes
+/// no verdict.
+fn hash_of_inputs(workspace: &Workspace, grader: &Grader, options: &Options) -> Result<blake3::Hash> {
+    let mut hasher = blake3::Hasher::new();
+    for (name, value) in grader.provenance().iter().filter(|(name, _)| *name != "rubric") {
+        hasher.update(format!("{name}={value}\n").as_bytes());
+    }
+    hasher.update(format!("{:?} {:?}", grader.rubric().tasks, options.only).as_bytes());
+    hasher.update(format!("{:?}", grader.oracle().map(Oracle::hash)).as_bytes());
+    hash_judging(workspace, &mut hasher)?;
+    Ok(hasher.finalize())
+}
+
+/// What has changed in a score, for people; `None` if nothing has.
+fn change(key: &str, before: &Record, after: &Record) -> Option<String> {
+    let show = |points: &Option<f64>| points.map_or_else(|| "–".to_owned(), |points| points.to_string());
+    let mut parts: Vec<String> = after
+        .tasks
+        .iter()
+        .filter_map(|(task, points)| {
+            let old = before.tasks.get(task).unwrap_or(&None);
+            (old != points).then(|| format!("{task} {} → {}", show(old), show(points)))
+        })
+        .collect();
+    let code =
+        |record: &Record| record.reason.as_ref().map_or_else(String::new, |reason| reason.code.clone());
+    if code(before) != code(after) {
+        parts.push(format!("reason {:?} → {:?}", code(before), code(after)));
+    }
+    (!parts.is_empty()).then(|| format!("{key}: {}", parts.join(", ")))
+}
+
+/// True if a folder holds results of an earlier run.
+pub fn has_results(out: &Path) -> bool {
+    std::fs::read_dir(out.join("hand-ins")).is_ok_and(|mut entries| entries.next().is_some())
+}

@@ -1,0 +1,245 @@
+//! Hand-ins that are the same, or nearly so, for a person to look at. Nothing of this is in a student's report.
+//!
+//! Sources are compared by fingerprints of their tokens: winnowing, as in Schleimer, Wilkerson and Aiken, "Winnowing:
+//! local algorithms for document fingerprinting" (SIGMOD 2003), section 4. Any run of `GRAM + WINDOW - 1` tokens that
+//! two files share leaves at least one common fingerprint. What the starting file has counts for nobody.
+//! Two files that are alike prove nothing: the exercise is small, and there are few good ways to do it.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::Serialize;
+
+use super::tokens::{names, tokens};
+
+/// Tokens of one fingerprint: about two statements.
+const GRAM: usize = 16;
+/// Of so many fingerprints in a row one is kept.
+const WINDOW: usize = 6;
+/// Files with fewer fingerprints of their own than this are not compared: there is too little in them.
+const FEWEST: usize = 12;
+/// From which share of common fingerprints on files are listed. Solutions of one exercise that were written
+/// independently have below 0.05 in common (see the test), a copy with one expression changed has most.
+pub const THRESHOLD: f64 = 0.5;
+
+/// What is known of the starting file.
+#[derive(Clone, Debug)]
+pub struct Starter {
+    vocabulary: BTreeSet<String>,
+    grams: BTreeSet<u64>,
+}
+
+/// What is kept of a source.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fingerprint {
+    /// Of all tokens.
+    whole: u64,
+    /// Of pieces that the starting file does not have, in order.
+    pieces: Vec<u64>,
+}
+
+impl Starter {
+    /// Of its text.
+    pub fn new(text: &str) -> Self {
+        let vocabulary = names(text);
+        let grams = grams(&tokens(text, &vocabulary)).into_iter().collect();
+        Self { vocabulary, grams }
+    }
+
+    /// The fingerprint of a source.
+    pub fn fingerprint(&self, source: &str) -> Fingerprint {
+        let tokens = tokens(source, &self.vocabulary);
+        let grams = grams(&tokens);
+        let mut pieces: Vec<u64> =
+            grams.windows(WINDOW).filter_map(|window| window.iter().min().copied()).collect();
+        pieces.retain(|piece| !self.grams.contains(piece));
+        pieces.sort_unstable();
+        pieces.dedup();
+        Fingerprint { whole: combine(&tokens), pieces }
+    }
+}
+
+fn grams(tokens: &[u64]) -> Vec<u64> {
+    tokens.windows(GRAM).map(combine).collect()
+}
+
+/// The first eight bytes of BLAKE3 over numbers.
+fn combine(numbers: &[u64]) -> u64 {
+    let mut hasher = blake3::Hasher::new();
+    for number in numbers {
+        hasher.update(&number.to_le_bytes());
+    }
+    let mut first = [0; 8];
+    first.copy_from_slice(&hasher.finalize().as_bytes()[..8]);
+    u64::from_le_bytes(first)
+}
+
+impl Fingerprint {
+    /// The share of pieces that both have, of all that either has, in [0, 1].
+    pub fn similarity(&self, other: &Self) -> f64 {
+        let (mut common, mut own, mut others) = (0_usize, 0, 0);
+        while own < self.pieces.len() && others < other.pieces.len() {
+            match self.pieces[own].cmp(&other.pieces[others]) {
+                std::cmp::Ordering::Less => own += 1,
+                std::cmp::Ordering::Greater => others += 1,
+                std::cmp::Ordering::Equal => {
+                    common += 1;
+                    own += 1;
+                    others += 1;
+                }
+            }
+        }
+        let all = self.pieces.len() + other.pieces.len() - common;
+        if all == 0 { 0.0 } else { common as f64 / all as f64 }
+    }
+}
+
+/// Hand-ins to look at together.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Group {
+    /// True if they differ in names, comments and layout only.
+    pub identical: bool,
+    /// Whose they are.
+    pub students: Vec<String>,
+    /// Of groups that are not identical, the pairs that brought them together, and how alike they are.
+    pub pairs: Vec<(String, String, f64)>,
+}
+
+/// All groups, the identical ones first. Of identical hand-ins only the first is compared further.
+pub fn groups(hand_ins: &BTreeMap<String, Fingerprint>) -> Vec<Group> {
+    let mut same: BTreeMap<u64, Vec<&String>> = BTreeMap::new();
+    let comparable = hand_ins.iter().filter(|(_, print)| print.pieces.len() >= FEWEST);
+    for (student, print) in comparable {
+        same.entry(print.whole).or_default().push(student);
+    }
+    let mut groups: Vec<Group> = same
+        .values()
+        .filter(|students| students.len() > 1)
+        .map(|students| Group {
+            identical: true,
+            students: students.iter().map(|&student| student.clone()).collect(),
+            pairs: Vec::new(),
+        })
+        .collect();
+    let first: Vec<&String> = same.values().map(|students| students[0]).collect();
+    let mut near: Vec<Group> = Vec::new();
+    for (index, one) in first.iter().enumerate() {
+        for other in &first[index + 1..] {
+            let similarity = hand_ins[*one].similarity(&hand_ins[*other]);
+            if similarity >= THRESHOLD {
+                let rounded = (similarity * 1000.0).round() / 1000.0;
+                let (one, other) = (one.min(other), one.max(other));
+                join(&mut near, ((*one).clone(), (*other).clone(), rounded));
+            }
+        }
+    }
+    for group in &mut near {
+        group.students =
+            group.pairs.iter().flat_map(|(one, other, _)| [one.clone(), other.clone()]).collect();
+        group.students.sort();
+        group.students.dedup();
+        group.pairs.sort_by(|one, other| other.2.total_cmp(&one.2).then_with(|| one.0.cmp(&other.0)));
+    }
+    groups.sort_by(|one, other| one.students.cmp(&other.students));
+    near.sort_by(|one, other| one.students.cmp(&other.students));
+    groups.append(&mut near);
+    groups
+}
+
+/// Adds a pair to the groups that have one of the two, which become one.
+fn join(groups: &mut Vec<Group>, pair: (String, String, f64)) {
+    let has = |group: &Group| {
+        group
+            .pairs
+            .iter()
+            .any(|(one, other, _)| [one, other].iter().any(|name| **name == pair.0 || **name == pair.1))
+    };
+    let (touched, rest): (Vec<Group>, Vec<Group>) = std::mem::take(groups).into_iter().partition(has);
+    *groups = rest;
+    let mut pairs: Vec<_> = touched.into_iter().flat_map(|group| group.pairs).collect();
+    pairs.push(pair);
+    groups.push(Group { identical: false, students: Vec::new(), pairs });
+}
+
+/// The groups as a text for staff.
+pub fn describe(groups: &[Group]) -> String {
+    let mut text =
+        "Hand-ins that are alike, for a person to look at. This proves nothing: the exercise is small.\n\
+                    Compared are tokens, without names, comments, layout, and what the starting file has.\n"
+            .to_owned();
+    for group in groups {
+        if group.identical {
+            text +=
+                &format!("\nthe same but for names, comments and layout: {}\n", group.students.join(", "));
+            continue;
+        }
+        text += &format!("\nnearly the same: {}\n", group.students.join(", "));
+        for (one, other, similarity) in &group.pairs {
+            text += &format!("  {one} – {other}: {:.0} % in common\n", 100.0 * similarity);
+        }
+    }
+    if groups.is_empty() {
+        text += "\nnone\n";
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use harness::workspace::Workspace;
+
+    fn read(path: &std::path::Path) -> String {
+        std::fs::read_to_string(path).expect("it is there")
+    }
+
+    #[test]
+    fn a_renamed_and_commented_copy_is_the_same_and_another_style_is_not() {
+        let workspace = Workspace::find().expect("the tests run inside the checkout");
+        let starter_text = read(&workspace.student_file());
+        let starter = Starter::new(&starter_text);
+        let solution = read(&workspace.solution_file());
+        let disguised = solution
+            .replace("pick_probability", "chance")
+            .replace("balance(", "heuristic(")
+            .replace("    ", "\t")
+            .replace('{', "{ // mine\n/// all mine\n");
+        let styles = ["iterators", "path_state", "recursive", "separate_mis_ray"];
+        let mut sources = BTreeMap::from([
+            ("solution".to_owned(), solution),
+            ("disguised".to_owned(), disguised),
+            ("starter".to_owned(), starter_text.clone()),
+            ("starter-2".to_owned(), starter_text),
+        ]);
+        for style in styles {
+            sources.insert(style.to_owned(), read(&workspace.variants().join(format!("{style}.rs"))));
+        }
+        let changed = sources["solution"].replace("hit.cos(wi) * weight / p_ne", "weight / p_ne");
+        assert_ne!(changed, sources["solution"], "the solution has this expression");
+        sources.insert("small-change".to_owned(), changed);
+        let prints: BTreeMap<String, Fingerprint> =
+            sources.iter().map(|(name, source)| (name.clone(), starter.fingerprint(source))).collect();
+        let alike: Vec<(bool, Vec<String>)> =
+            groups(&prints).into_iter().map(|group| (group.identical, group.students)).collect();
+        let group = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect::<Vec<String>>();
+        assert_eq!(
+            alike,
+            [(true, group(&["disguised", "solution"])), (false, group(&["disguised", "small-change"]))]
+        );
+        for style in styles {
+            for (other, print) in prints.iter().filter(|(other, _)| *other != style) {
+                let similarity = prints[style].similarity(print);
+                assert!(similarity < 0.05, "{style} {other}: {similarity}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_rust_or_nested_without_end_is_compared_too() {
+        let starter = Starter::new("fn main() {}");
+        for source in
+            ["(".repeat(400_000), format!("{}{}", "(".repeat(100_000), ")".repeat(100_000)), "\"".into()]
+        {
+            let _ = starter.fingerprint(&source);
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! The tables of course systems, filled: read as they were downloaded, written with points for those they name, and
+//! otherwise unchanged.
+
+use std::path::Path;
+
+use super::gradebook::{Row, State};
+use super::roster::{EMAIL, IDENTIFIER, LOGIN, digits};
+use crate::table::{Row as Line, Table, no_formula};
+use verdict::error::{Error, Result};
+
+/// What was filled in.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Filled {
+    /// Rows with points now.
+    pub filled: usize,
+    /// Rows that were left as they are, and why.
+    pub left: Vec<String>,
+}
+
+const GRADE: &[&str] = &["Grade", "Bewertung"];
+const MAXIMUM: &[&str] = &["Maximum Grade", "Bestwertung"];
+const FEEDBACK: &[&str] = &["Feedback comments", "Feedback als Kommentar"];
+const LOCKED: &[&str] = &["Grade can be changed", "Bewertung kann geändert werden"];
+
+/// Fills Moodle's grading worksheet: grade and feedback, by Identifier or e-mail address.
+///
+/// # Errors
+/// If the file is none, or cannot be read or written.
+pub fn fill_moodle(from: &Path, to: &Path, rows: &[Row]) -> Result<Filled> {
+    let mut table = Table::load(from)?;
+    let grade = table.column(GRADE).ok_or_else(|| Error::file(from, "there is no column `Grade`"))?;
+    let (maximum, feedback, changeable) =
+        (table.column(MAXIMUM), table.column(FEEDBACK), table.column(LOCKED));
+    let (identifier, email) =
+        (table.column(IDENTIFIER).or_else(|| table.column(&["ID"])), table.column(EMAIL));
+    if identifier.is_none() && email.is_none() {
+        return Err(Error::file(from, "there is neither a column `Identifier` nor one of e-mail addresses"));
+    }
+    let mut filled = Filled::default();
+    for line in &mut table.rows {
+        let Some(row) = find(rows, line, identifier, email) else {
+            filled.left.push(format!("line {}: nobody of the class", line.line));
+            continue;
+        };
+        let answer = changeable.map_or("", |column| line.cell(column)).to_lowercase();
+        if matches!(answer.as_str(), "no" | "nein") {
+            filled.left.push(format!("{}: Moodle does not let this grade be changed", row.key));
+            continue;
+        }
+        // Those who handed in nothing keep what a person may have entered.
+        let Some(points) = row.points.filter(|_| row.state != State::Missing) else { continue };
+        let comma = maximum.is_some_and(|column| line.cell(column).contains(','));
+        let text = points.to_string();
+        line.cells[grade] = if comma { text.replace('.', ",") } else { text };
+        if let Some(column) = feedback {
+            line.cells[column] = no_formula(&row.feedback());
+        }
+        filled.filled += 1;
+    }
+    table.save(to)?;
+    Ok(filled)
+}
+
+/// Fills the `status.csv` of an ILIAS exercise: mark and comment, by usr_id or login. Only rows whose `update` is 1 are
+/// taken over by ILIAS.
+///
+/// # Errors
+/// If the file is none, or cannot be read or written.
+pub fn fill_ilias(from: &Path, to: &Path, rows: &[Row]) -> Result<Filled> {
+    let mut table = Table::load(from)?;
+    let column = |name: &str| {
+        table.column(&[name]).ok_or_else(|| Error::file(from, format!("there is no column `{name}`")))
+    };
+    let (update, mark, comment) = (column("update")?, column("mark")?, column("comment")?);
+    let (number, login) = (table.column(&["usr_id"]), table.column(LOGIN));
+    let mut filled = Filled::default();
+    for line in &mut table.rows {
+        let Some(row) = find(rows, line, number, login) else {
+            filled.left.push(format!("line {}: nobody of the class", line.line));
+            continue;
+        };
+        let Some(points) = row.points.filter(|_| row.state != State::Missing) else { continue };
+        line.cells[update] = "1".to_owned();
+        line.cells[mark] = points.to_string();
+        line.cells[comment] = no_formula(&row.feedback());
+        filled.filled += 1;
+    }
+    table.save(to)?;
+    Ok(filled)
+}
+
+/// The row of the class that a line is about: by number, or else by login or address.
+fn find<'a>(rows: &'a [Row], line: &Line, number: Option<usize>, name: Option<usize>) -> Option<&'a Row> {
+    let number = number.map(|column| digits(line.cell(column))).unwrap_or_default();
+    let name = name.map_or("", |column| line.cell(column)).to_lowercase();
+    let only = |fits: &dyn Fn(&Row) -> bool| {
+        let mut found = rows.iter().filter(|row| fits(row));
+        found.next().filter(|_| found.next().is_none())
+    };
+    only(&|row| !number.is_empty() && row.numbers.contains(&number)).or_else(|| {
+        let same = |own: &str| !name.is_empty() && own.to_lowercase() == name;
+        only(&|row| same(&row.email) || same(&row.login) || same(&row.key))
+    })
+}

@@ -1,0 +1,93 @@
+//! When hand-ins came: a CSV file of the staff's.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use jiff::Timestamp;
+use jiff::tz::TimeZone;
+
+use super::{Lateness, Policy, Standing, parse_received};
+use crate::table::Table;
+use verdict::error::{Error, Result};
+
+/// What is known of one hand-in's arrival.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Receipt {
+    /// When the file came.
+    pub received_at: Option<Timestamp>,
+    /// The MD5 checksum that the student sent, in hexadecimal.
+    pub md5: Option<String>,
+    /// When that came.
+    pub md5_received_at: Option<Timestamp>,
+    /// Which file or folder it is about, below the folder of the class; empty if there is only one.
+    pub path: String,
+}
+
+/// All receipts of a class. The columns of the file are `student` (login, number, e-mail address, or the name of the
+/// hand-in's folder), `received_at`, and where they are needed `md5`, `md5_received_at` and `path`. A student who sent
+/// several has several rows.
+#[derive(Clone, Debug, Default)]
+pub struct Manifest {
+    receipts: BTreeMap<String, Vec<Receipt>>,
+}
+
+impl Manifest {
+    /// Reads the file. Times without an offset are those of the zone.
+    ///
+    /// # Errors
+    /// The first row that cannot be understood, with its line.
+    pub fn load(path: &Path, zone: &TimeZone) -> Result<Self> {
+        let table = Table::load(path)?;
+        let column = |name: &str| table.column(&[name]);
+        let missing = |name: &str| Error::file(path, format!("there is no column `{name}`"));
+        let student = column("student").ok_or_else(|| missing("student"))?;
+        let received_at = column("received_at").ok_or_else(|| missing("received_at"))?;
+        let (md5, md5_received_at, file) = (column("md5"), column("md5_received_at"), column("path"));
+        let mut manifest = Self::default();
+        for row in &table.rows {
+            let blame = |message: String| Error::Input(format!("{}:{}: {message}", path.display(), row.line));
+            let cell =
+                |column: Option<usize>| column.map(|column| row.cell(column)).filter(|text| !text.is_empty());
+            let time =
+                |column| cell(column).map(|text| parse_received(text, zone)).transpose().map_err(blame);
+            let md5 = cell(md5).map(str::to_lowercase);
+            if md5.as_ref().is_some_and(|md5| md5.len() != 32 || !md5.bytes().all(|b| b.is_ascii_hexdigit()))
+            {
+                return Err(blame("an MD5 checksum has 32 hexadecimal digits".to_owned()));
+            }
+            let receipt = Receipt {
+                received_at: time(Some(received_at))?,
+                md5,
+                md5_received_at: time(md5_received_at)?,
+                path: cell(file).unwrap_or_default().to_owned(),
+            };
+            manifest.receipts.entry(row.cell(student).to_lowercase()).or_default().push(receipt);
+        }
+        Ok(manifest)
+    }
+
+    /// The students that it names, in small letters.
+    pub fn students(&self) -> impl Iterator<Item = &str> {
+        self.receipts.keys().map(String::as_str)
+    }
+
+    /// The receipts of a student who goes by these names.
+    pub fn of(&self, student: &[&str]) -> &[Receipt] {
+        let found = student.iter().find_map(|name| self.receipts.get(&name.trim().to_lowercase()));
+        found.map_or(&[], Vec::as_slice)
+    }
+}
+
+/// Of several hand-ins, the last that is accepted counts; if none is, the last. What came at the same time counts in
+/// the order of the manifest.
+pub(crate) fn the_one_that_counts<'a>(
+    policy: &Policy,
+    student: &[&str],
+    receipts: &'a [Receipt],
+    checksums: impl Fn(&Receipt) -> Vec<String>,
+) -> Option<(&'a Receipt, Lateness)> {
+    receipts
+        .iter()
+        .map(|receipt| (receipt, policy.judge(student, Some(receipt), &checksums(receipt))))
+        .max_by_key(|(receipt, lateness)| (lateness.standing != Standing::NotAccepted, receipt.received_at))
+}

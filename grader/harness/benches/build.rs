@@ -1,0 +1,50 @@
+//! How long it takes from a hand-in's source to its running process, and how much of that is the sandbox's.
+//!
+//! `cargo bench -p grader`. The framework is built before, as for a grade.
+
+use std::path::PathBuf;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use harness::build::{Framework, compile};
+use harness::host_process::HostProcess;
+use harness::sandbox::Limits;
+use harness::workspace::Workspace;
+
+fn build(criterion: &mut Criterion) {
+    let workspace = Workspace::find().expect("the bench runs in the workspace");
+    let framework = Framework::build(&workspace).expect("the framework builds");
+    let source = |file: PathBuf| std::fs::read_to_string(file).expect("the file can be read");
+    let scene = arty::scene::file::load(&workspace.scene_file("cornell_box"))
+        .expect("the scene is in the collection")
+        .description;
+    let mut group = criterion.benchmark_group("hand-in");
+    group.sample_size(20);
+    for (name, sandbox) in [("", true), (", no sandbox", false)] {
+        let limits = Limits { sandbox, ..Limits::default() };
+        for (which, file) in [("starter", workspace.student_file()), ("solution", workspace.solution_file())]
+        {
+            let source = source(file);
+            group.bench_function(format!("compile {which}{name}"), |b| {
+                b.iter(|| {
+                    compile(&framework, &source, &limits).expect("rustc runs").expect("the file compiles")
+                });
+            });
+        }
+        let program = compile(&framework, &source(workspace.solution_file()), &limits)
+            .expect("rustc runs")
+            .expect("the file compiles");
+        group.bench_function(format!("start, end{name}"), |b| {
+            b.iter(|| HostProcess::start(&program, 1).expect("the program starts"));
+        });
+        group.bench_function(format!("start, load cornell_box, end{name}"), |b| {
+            b.iter(|| {
+                let mut process = HostProcess::start(&program, 1).expect("the program starts");
+                process.load(&scene).expect("the pipe holds").expect("the scene loads")
+            });
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, build);
+criterion_main!(benches);

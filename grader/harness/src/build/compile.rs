@@ -1,0 +1,259 @@
+//! One call of rustc: the hand-in, the fixed program around it, the framework.
+
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+
+use super::Framework;
+use super::scratch::Scratch;
+use crate::sandbox::{self, Layers, Limits, Profile};
+use serde::Deserialize;
+use verdict::error::{Error, Result};
+use verdict::submission::BuildFailure;
+use verdict::text::clean;
+
+/// The program around a hand-in.
+const PROGRAM: &str = include_str!("../../../host/program/main.rs");
+
+/// A hand-in, compiled. Its files are removed when this is dropped.
+#[derive(Debug)]
+pub struct HandInProgram {
+    /// The program.
+    pub executable: PathBuf,
+    /// How long rustc took; nothing if it was compiled earlier.
+    pub compile_time: Duration,
+    /// What it may use up when it runs.
+    pub limits: Limits,
+    /// How rustc was confined, if it was called now.
+    pub layers: Layers,
+    _folder: Scratch,
+}
+
+impl HandInProgram {
+    /// A program that was compiled before, from the bytes of its executable.
+    pub fn again(executable: &[u8], limits: &Limits) -> Result<Self> {
+        let trouble = |error| Error::Harness(format!("a program cannot be copied: {error}"));
+        let folder = Scratch::new().map_err(trouble)?;
+        let file = folder.path().join(executable_name());
+        std::fs::write(&file, executable).map_err(trouble)?;
+        #[cfg(unix)]
+        std::fs::set_permissions(&file, std::os::unix::fs::PermissionsExt::from_mode(0o755))
+            .map_err(trouble)?;
+        sandbox::hand_over(folder.path())?;
+        Ok(Self {
+            executable: file,
+            compile_time: Duration::ZERO,
+            limits: *limits,
+            layers: Layers::default(),
+            _folder: folder,
+        })
+    }
+}
+
+/// Over all that decides how a source is compiled, but for source and framework.
+pub fn recipe() -> blake3::Hash {
+    blake3::hash(&[PROGRAM.as_bytes(), include_bytes!("compile.rs")].concat())
+}
+
+/// A hand-in that compiles wherever compiling works at all.
+pub const EMPTY_HAND_IN: &str = "use arty::prelude::*;
+pub struct PathTracer;
+impl PathTracer { pub fn new(_: Settings) -> Self { Self } }
+impl Integrator for PathTracer {
+    fn radiance(&self, _: &Scene, _: Ray, _: &mut Sampler) -> Rgb { Rgb::BLACK }
+}
+";
+
+/// Compiles the source of a hand-in, in a sandbox. The outer error is the harness's, the inner one the hand-in's.
+pub fn compile(
+    framework: &Framework,
+    source: &str,
+    limits: &Limits,
+) -> Result<std::result::Result<HandInProgram, BuildFailure>> {
+    let failure = match compile_once(framework, source, limits, true)? {
+        Ok(program) => return Ok(Ok(program)),
+        Err(failure) => failure,
+    };
+    if !framework.is_there() {
+        let folder = framework.dependencies.display();
+        return Err(Error::Harness(format!("the framework's libraries are gone from {folder}: grade again")));
+    }
+    // No line of the hand-in is to blame: is it the machine? A missing linker, a full disk?
+    if failure.line.is_some() || compile_once(framework, EMPTY_HAND_IN, limits, true)?.is_ok() {
+        return Ok(Err(failure));
+    }
+    // Or a toolchain whose files lie where the sandbox does not expect them? The report will tell its level.
+    match compile_once(framework, EMPTY_HAND_IN, limits, false)? {
+        Ok(_) => compile_once(framework, source, limits, false),
+        Err(BuildFailure { messages, .. }) => {
+            let folder = framework.dependencies.display();
+            Err(Error::Harness(format!(
+                "not even an empty hand-in compiles here, against the libraries in {folder}:\n{messages}"
+            )))
+        }
+    }
+}
+
+fn compile_once(
+    framework: &Framework,
+    source: &str,
+    limits: &Limits,
+    locked: bool,
+) -> Result<std::result::Result<HandInProgram, BuildFailure>> {
+    let trouble = |what: &str, error: std::io::Error| Error::Harness(format!("{what}: {error}"));
+    let folder = Scratch::new().map_err(|error| trouble("no temporary folder", error))?;
+    for (name, text) in [("main.rs", PROGRAM), ("render_pt.rs", source)] {
+        std::fs::write(folder.path().join(name), text)
+            .map_err(|error| trouble("the hand-in cannot be copied", error))?;
+    }
+    let messages = std::fs::File::create(folder.path().join(MESSAGES))
+        .map_err(|error| trouble("no file for rustc's messages", error))?;
+    sandbox::hand_over(folder.path())?;
+    let mut rustc = call(framework, folder.path());
+    rustc.stderr(messages);
+    let grants = &framework.grants;
+    let profile = Profile::Compiler { grants, folder: folder.path(), locked };
+    let layers = sandbox::prepare(&mut rustc, profile, limits)?;
+    let start = Instant::now();
+    let status = run_in_time(&mut rustc, limits.compile_time)
+        .map_err(|error| trouble("rustc could not be run", error))?;
+    let compile_time = start.elapsed();
+    let Some(status) = status else {
+        let messages = format!("rustc did not finish within {} s\n", limits.compile_time.as_secs());
+        return Ok(Err(BuildFailure { messages, line: None }));
+    };
+    sandbox::blame_machine(status, "rustc")?;
+    if status.success() {
+        let executable = folder.path().join(executable_name());
+        let limits = *limits;
+        return Ok(Ok(HandInProgram { executable, compile_time, limits, layers, _folder: folder }));
+    }
+    let messages = read_messages(&folder.path().join(MESSAGES))
+        .map_err(|error| trouble("rustc's messages are gone", error))?;
+    Ok(Err(build_failure(&messages, &status.to_string())))
+}
+
+/// Runs rustc; `None` if it had to be ended.
+fn run_in_time(rustc: &mut Command, time: Duration) -> std::io::Result<Option<ExitStatus>> {
+    let mut rustc = rustc.spawn()?;
+    let deadline = Instant::now() + time;
+    loop {
+        if let Some(status) = rustc.try_wait()? {
+            return Ok(Some(status));
+        }
+        if Instant::now() >= deadline {
+            sandbox::end(&mut rustc);
+            rustc.wait()?;
+            return Ok(None);
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+/// The file that rustc's messages go to: unlike a pipe it never fills up.
+const MESSAGES: &str = "messages.json";
+
+/// The beginning of rustc's messages: as much as anyone will read.
+fn read_messages(file: &Path) -> std::io::Result<String> {
+    let mut bytes = Vec::new();
+    std::fs::File::open(file)?.take(LONGEST_MESSAGES).read_to_end(&mut bytes)?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// Bytes of rustc's messages that are looked at. The terminal's form of them is a quarter of it.
+const LONGEST_MESSAGES: u64 = 256 << 10;
+
+fn executable_name() -> String {
+    format!("hand-in{}", std::env::consts::EXE_SUFFIX)
+}
+
+/// What rustc's call of the linker may need of the environment, on one system or another. `env!` can read no more.
+const KEPT: [&str; 14] = [
+    "PATH",
+    // macOS: where its developer tools are.
+    "DEVELOPER_DIR",
+    "SDKROOT",
+    // Windows: where its own libraries and the linker's are.
+    "SystemRoot",
+    "ProgramFiles",
+    "ProgramFiles(x86)",
+    "ProgramData",
+    "VCINSTALLDIR",
+    "LIB",
+    "LIBPATH",
+    "INCLUDE",
+    "TMP",
+    "TEMP",
+    "PATHEXT",
+];
+
+/// The call. No link-time optimisation: it would make a tenth of a second into several, for a tenth more speed.
+fn call(framework: &Framework, folder: &Path) -> Command {
+    let external = |name: &str, library: &Path| {
+        let mut argument = std::ffi::OsString::from(format!("{name}="));
+        argument.push(library);
+        argument
+    };
+    let mut dependencies = std::ffi::OsString::from("dependency=");
+    dependencies.push(&framework.dependencies);
+    let mut command = Command::new(&framework.rustc);
+    command
+        .env_clear()
+        .envs(KEPT.iter().filter_map(|&name| Some((name, std::env::var_os(name)?))))
+        // The linker's intermediate files.
+        .env("TMPDIR", folder)
+        .args(["main.rs", "--crate-name", "hand_in", "--edition", "2024", "--crate-type", "bin", "-o"])
+        .arg(executable_name())
+        .args(["-C", "opt-level=3", "-C", "codegen-units=1", "-C", "debuginfo=0", "-C", "strip=debuginfo"])
+        // The student's warnings are the student's matter. (Capping lints would lift the ban on unsafe code.)
+        .args(["-A", "warnings", "--error-format", "json"])
+        .arg("-L")
+        .arg(dependencies)
+        .arg("--extern")
+        .arg(external("arty", &framework.arty))
+        .arg("--extern")
+        .arg(external("host", &framework.host))
+        .current_dir(folder)
+        .stdin(Stdio::null());
+    command
+}
+
+/// The part of rustc's JSON messages that is shown.
+#[derive(Deserialize)]
+struct Message {
+    rendered: Option<String>,
+    level: String,
+    #[serde(default)]
+    spans: Vec<Span>,
+}
+
+#[derive(Deserialize)]
+struct Span {
+    file_name: String,
+    line_start: u32,
+    is_primary: bool,
+}
+
+fn build_failure(stderr: &str, status: &str) -> BuildFailure {
+    let mut messages = String::new();
+    let mut line = None;
+    for text in stderr.lines() {
+        match serde_json::from_str::<Message>(text) {
+            Ok(message) if message.level == "error" => {
+                messages.push_str(message.rendered.as_deref().unwrap_or_default());
+                let own = |span: &&Span| span.is_primary && span.file_name == "render_pt.rs";
+                line = line.or(message.spans.iter().find(own).map(|span| span.line_start));
+            }
+            Ok(_) => {}
+            Err(_) => {
+                messages.push_str(text);
+                messages.push('\n');
+            }
+        }
+    }
+    if messages.is_empty() {
+        messages = format!("rustc ended with {status} and said nothing\n");
+    }
+    BuildFailure { messages: clean(&messages), line }
+}

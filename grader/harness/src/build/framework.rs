@@ -1,0 +1,113 @@
+//! The prebuilt framework that every hand-in is linked against.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::cargo;
+use super::compiler::Compiler;
+use super::kept::{self, Kept};
+use crate::sandbox::Grants;
+use crate::tree_hash::hash_tree;
+use crate::workspace::Workspace;
+use verdict::error::Result;
+
+/// The compiled libraries of the framework, as Cargo built them from the sources of this checkout.
+///
+/// The hand-in has no part in this build: no file of it ever reaches Cargo.
+#[derive(Clone, Debug)]
+pub struct Framework {
+    /// The library `arty`.
+    pub arty: PathBuf,
+    /// The library `host`.
+    pub host: PathBuf,
+    /// The folder with these and all that they need.
+    pub dependencies: PathBuf,
+    /// BLAKE3 over all that they are built from.
+    pub hash: String,
+    /// The compiler, as it names itself.
+    pub toolchain: String,
+    /// The compiler's program.
+    pub rustc: PathBuf,
+    /// What the compiler needs to be granted.
+    pub grants: Grants,
+    /// Nobody removes it as long as this is there.
+    kept: Option<Arc<Kept>>,
+}
+
+impl Framework {
+    /// Takes the framework from where it is kept for all checkouts of this user, or builds it and keeps it there.
+    ///
+    /// # Errors
+    /// If it does not build, or if there is no compiler.
+    pub fn build(workspace: &Workspace) -> Result<Self> {
+        let compiler = Compiler::of(workspace.root())?;
+        let (shelf, key) = (kept::shelf(), key_of(workspace, &compiler)?);
+        let find = || Kept::find(shelf.as_deref()?, &key);
+        if let Some(kept) = find() {
+            return Ok(Self::of_kept(kept, key, &compiler));
+        }
+        let built = cargo::build(workspace, &compiler, &key)?;
+        // Somebody may have saved another source meanwhile, or have been faster.
+        if let Some(shelf) = &shelf
+            && key_of(workspace, &compiler).is_ok_and(|now| now == key)
+            && find().is_none()
+        {
+            // Who cannot keep it uses what Cargo has built.
+            let _ = Kept::keep(shelf, &key, &built);
+        }
+        Ok(match find() {
+            Some(kept) => Self::of_kept(kept, key, &compiler),
+            None => {
+                let dependencies = built.dependencies();
+                Self::new(built.arty, built.host, dependencies, key, &compiler)
+            }
+        })
+    }
+
+    /// True if none was ever built for this user or in this checkout, so that it is worth a word that it takes its time.
+    pub fn is_first(workspace: &Workspace) -> bool {
+        !workspace.framework_target().exists() && !kept::shelf().is_some_and(|shelf| shelf.exists())
+    }
+
+    fn of_kept(kept: Kept, key: String, compiler: &Compiler) -> Self {
+        let framework = Self::new(kept.arty(), kept.host(), kept.libraries(), key, compiler);
+        Self { kept: Some(Arc::new(kept)), ..framework }
+    }
+
+    fn new(arty: PathBuf, host: PathBuf, dependencies: PathBuf, key: String, compiler: &Compiler) -> Self {
+        let folders = [Some(dependencies.as_path()), arty.parent(), host.parent()];
+        let folders: Vec<&Path> = folders.into_iter().flatten().collect();
+        Self {
+            hash: key,
+            toolchain: compiler.name().to_owned(),
+            rustc: compiler.rustc.clone(),
+            grants: Grants::of_toolchain(&compiler.rustc, &compiler.sysroot, &folders),
+            arty,
+            host,
+            dependencies,
+            kept: None,
+        }
+    }
+
+    /// True as long as nobody has removed the libraries.
+    pub(super) fn is_there(&self) -> bool {
+        self.arty.is_file() && self.host.is_file() && self.kept.as_ref().is_none_or(|kept| kept.is_whole())
+    }
+}
+
+/// What of `skeleton/src` has no part in the libraries: the student's file, the program.
+const NO_PART: [&str; 3] = ["algorithms", "cli", "main.rs"];
+
+/// Over all that decides what Cargo builds: how it is called, sources, versions of dependencies, settings, the compiler.
+fn key_of(workspace: &Workspace, compiler: &Compiler) -> Result<String> {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(include_bytes!("cargo.rs"));
+    hasher.update(compiler.version.as_bytes()).update(compiler.sysroot.as_os_str().as_encoded_bytes());
+    let others =
+        ["Cargo.toml", "Cargo.lock", "skeleton/Cargo.toml", "grader/host/Cargo.toml", "grader/host/src"];
+    for path in others {
+        hash_tree(&workspace.root().join(path), &[], &mut hasher)?;
+    }
+    hash_tree(&workspace.root().join("skeleton/src"), &NO_PART, &mut hasher)?;
+    Ok(hasher.finalize().to_hex().to_string())
+}

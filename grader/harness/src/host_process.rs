@@ -1,0 +1,374 @@
+//! The process that runs a hand-in, seen from the grader.
+
+use std::borrow::Cow;
+use std::io::{BufReader, ErrorKind, Write};
+use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::time::{Duration, Instant};
+
+use arty::integrator::Settings;
+use arty::scene::SceneDescription;
+use host::protocol::{
+    ProbeJob, ProbedPath, RenderJob, Rendered, ReplayJob, Replayed, Request, Response, UNCONFINED,
+    read_message, write_message,
+};
+use serde::{Deserialize, Serialize};
+
+use crate::build::HandInProgram;
+use crate::sandbox::{self, Layers, Profile};
+use verdict::error::{Error, Result};
+use verdict::text::clean;
+
+/// A running hand-in.
+///
+/// On Linux it ends with the thread that has started it.
+pub struct HostProcess {
+    child: Child,
+    requests: Sender<Vec<u8>>,
+    responses: Receiver<std::io::Result<Option<Response>>>,
+    scenes: u32,
+    job_time: Duration,
+    /// What all jobs together may take, and what is left of it.
+    all_jobs: Option<[Duration; 2]>,
+    /// In which scene and with which settings the first part of a job was in time, the last that was.
+    tried: Option<(u32, Settings)>,
+    layers: Layers,
+    /// Whether it was ended because it took too long.
+    ended: bool,
+}
+
+/// A job is tried with this part of it, to see whether it will ever end …
+const FIRST_PART: usize = 8;
+
+/// … within this part of the time: a third more than its share.
+const FIRST_PART_TIME: u32 = 6;
+
+/// What a hand-in can do instead of answering. Each is a finding about it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Fault {
+    /// It panicked.
+    Panic(String),
+    /// It did not answer within this time.
+    Timeout(Duration),
+    /// It would not have answered in time: it did not finish the first part of a job within this time.
+    TooSlow(Duration),
+    /// Its process ended.
+    Crash(String),
+    /// Its answer was not what was asked for.
+    Malformed(String),
+}
+
+impl std::fmt::Display for Fault {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Panic(message) => write!(f, "it panicked: {message}"),
+            Self::Timeout(time) => write!(f, "it did not finish within {} s", time.as_secs_f64()),
+            Self::TooSlow(time) => {
+                write!(f, "it did not finish the first eighth of a job within {} s", time.as_secs_f64())
+            }
+            Self::Crash(status) => write!(f, "its process ended early ({status})"),
+            Self::Malformed(what) => write!(f, "its answer was not what was asked for ({what})"),
+        }
+    }
+}
+
+impl Fault {
+    /// The same fault, where only the first part of a job was asked for, within this time.
+    fn of_first_part(self, time: Duration) -> Self {
+        if self == Self::Timeout(time) { Self::TooSlow(time) } else { self }
+    }
+}
+
+/// The outer error is the harness's, the inner one the hand-in's.
+type Answer<T> = Result<std::result::Result<T, Fault>>;
+
+impl HostProcess {
+    /// Starts the program in a sandbox, with an empty environment, in a folder of its own.
+    pub fn start(program: &HandInProgram, threads: usize) -> Result<Self> {
+        let trouble = |error: std::io::Error| {
+            let denied = error.kind() == ErrorKind::PermissionDenied;
+            let why = if denied {
+                "; may programs be run from the folder for temporary files? set TMPDIR to one where they may"
+            } else {
+                ""
+            };
+            Error::Harness(format!("the hand-in's program does not start: {error}{why}"))
+        };
+        let limits = &program.limits;
+        let mut command = Command::new(&program.executable);
+        command
+            .args((!limits.sandbox).then_some(UNCONFINED))
+            .env_clear()
+            .env("RAYON_NUM_THREADS", threads.to_string())
+            .current_dir(program.executable.parent().unwrap_or(&program.executable))
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            // What a hand-in prints is nobody's verdict.
+            .stderr(Stdio::null());
+        sandbox::prepare(&mut command, Profile::Host { threads }, limits)?;
+        let mut child = spawn(&mut command).map_err(trouble)?;
+        let requests = send(child.stdin.take().expect("stdin is piped"));
+        let responses = receive(child.stdout.take().expect("stdout is piped"), limits.answer);
+        let job_time = limits.job_time;
+        let layers = Layers::default();
+        let mut process = Self {
+            child,
+            requests,
+            responses,
+            scenes: 0,
+            job_time,
+            all_jobs: None,
+            tried: None,
+            layers,
+            ended: false,
+        };
+        match process.answer(job_time, job_time)? {
+            Ok(Response::Started(host::confine::Layers { landlock, seccomp, limits, unprivileged })) => {
+                process.layers = Layers { landlock, seccomp, limits, unprivileged };
+            }
+            Ok(_) => return Err(Error::Harness("the hand-in's program did not say that it is there".into())),
+            Err(fault) => {
+                return Err(Error::Harness(format!("the hand-in's program does not start: {fault}")));
+            }
+        }
+        Ok(process)
+    }
+
+    /// The same process, which may take no longer than this for all that it is asked.
+    #[must_use]
+    pub fn within(mut self, time: Duration) -> Self {
+        self.all_jobs = Some([time; 2]);
+        self
+    }
+
+    /// How the process is confined: what held when it was tried, before any code of the hand-in.
+    pub fn layers(&self) -> Layers {
+        self.layers
+    }
+
+    /// Sends a scene, and gives the number by which jobs refer to it.
+    pub fn load(&mut self, scene: &SceneDescription) -> Answer<u32> {
+        match self.ask(&Request::Scene(Cow::Borrowed(scene)), self.job_time)? {
+            Ok(Response::SceneReady) => {
+                self.scenes += 1;
+                Ok(Ok(self.scenes - 1))
+            }
+            Ok(other) => unexpected(other),
+            Err(fault) => Ok(Err(fault)),
+        }
+    }
+
+    /// Has batches rendered. All means are finite and there are as many as asked for.
+    ///
+    /// Unless this went well just before with this scene and these settings, an eighth of the batches goes first: nobody
+    /// waits for the others if even these take too long. Jobs of fewer than eight batches are not divided.
+    pub fn render(&mut self, job: &RenderJob) -> Answer<Rendered> {
+        let place = Some((job.scene, job.settings));
+        let first = if self.tried == place { 0 } else { job.seeds.len() / FIRST_PART };
+        if first == 0 {
+            return self.render_in_time(job, self.job_time);
+        }
+        let part = |seeds: &[u64]| RenderJob { seeds: seeds.to_vec(), ..job.clone() };
+        let (first, rest) = job.seeds.split_at(first);
+        let time = self.job_time / FIRST_PART_TIME;
+        let mut rendered = match self.render_in_time(&part(first), time)? {
+            Ok(rendered) => rendered,
+            Err(fault) => return Ok(Err(fault.of_first_part(time))),
+        };
+        self.tried = place;
+        Ok(self.render_in_time(&part(rest), self.job_time)?.map(|more| {
+            rendered.append(more);
+            rendered
+        }))
+    }
+
+    fn render_in_time(&mut self, job: &RenderJob, time: Duration) -> Answer<Rendered> {
+        let (pixels, batches) = ((job.width * job.height) as usize, job.seeds.len());
+        match self.ask(&Request::Render(Cow::Borrowed(job)), time)? {
+            Ok(Response::Rendered(rendered)) => Ok(check_shape(rendered, batches, pixels)),
+            Ok(other) => unexpected(other),
+            Err(fault) => Ok(Err(fault)),
+        }
+    }
+
+    /// Follows paths through scripted scenes: for each scene as many as asked for. Their radiance may be anything.
+    ///
+    /// An eighth of them is followed before, to see whether that ends.
+    pub fn probe(&mut self, job: &ProbeJob) -> Answer<Vec<Vec<ProbedPath>>> {
+        let first = job.samples / FIRST_PART as u64;
+        if first > 0 {
+            let (job, time) = (ProbeJob { samples: first, ..job.clone() }, self.job_time / FIRST_PART_TIME);
+            if let Err(fault) = self.probe_in_time(&job, time)? {
+                return Ok(Err(fault.of_first_part(time)));
+            }
+        }
+        self.probe_in_time(job, self.job_time)
+    }
+
+    fn probe_in_time(&mut self, job: &ProbeJob, time: Duration) -> Answer<Vec<Vec<ProbedPath>>> {
+        match self.ask(&Request::Probe(Cow::Borrowed(job)), time)? {
+            Ok(Response::Probed(paths)) => {
+                let whole = paths.len() == job.scenes.len()
+                    && paths.iter().all(|paths| paths.len() as u64 == job.samples);
+                Ok(if whole {
+                    Ok(paths)
+                } else {
+                    Err(Fault::Malformed("the number of scenes or paths is wrong".to_owned()))
+                })
+            }
+            Ok(other) => unexpected(other),
+            Err(fault) => Ok(Err(fault)),
+        }
+    }
+
+    /// Follows one path again, with every call written down. Its numbers may be anything.
+    pub fn replay(&mut self, job: ReplayJob) -> Answer<Replayed> {
+        match self.ask(&Request::Replay(job), self.job_time)? {
+            Ok(Response::Replayed(path)) => Ok(Ok(path)),
+            Ok(other) => unexpected(other),
+            Err(fault) => Ok(Err(fault)),
+        }
+    }
+
+    fn ask(&mut self, request: &Request<'_>, time: Duration) -> Answer<Response> {
+        let mut bytes = Vec::new();
+        write_message(&mut bytes, request)
+            .map_err(|error| Error::Harness(format!("a job cannot be sent: {error}")))?;
+        // If nobody takes it any more, there will be no answer either.
+        let _ = self.requests.send(bytes);
+        let Some([all, left]) = self.all_jobs else { return self.answer(time, self.job_time) };
+        let start = Instant::now();
+        let answer = self.answer(time.min(left), self.job_time.min(left))?;
+        self.all_jobs = Some([all, left.saturating_sub(start.elapsed())]);
+        Ok(answer.map_err(|fault| match fault {
+            Fault::Timeout(_) if left < time => Fault::Timeout(all),
+            fault => fault,
+        }))
+    }
+
+    /// What the process says next, in time. If it had less than half of that time on a processor, because the machine
+    /// had other things to do, it is given `most`.
+    fn answer(&mut self, time: Duration, most: Duration) -> Answer<Response> {
+        let before = sandbox::processor_time(&self.child);
+        let (mut time, mut said) = (time, self.responses.recv_timeout(time));
+        if matches!(said, Err(RecvTimeoutError::Timeout)) && time < most {
+            let worked = before.zip(sandbox::processor_time(&self.child));
+            if worked.is_some_and(|(before, now)| now.saturating_sub(before) < time / 2) {
+                said = self.responses.recv_timeout(most - time);
+                time = most;
+            }
+        }
+        Ok(match said {
+            Ok(Ok(Some(response))) => Ok(response),
+            Ok(Ok(None)) | Err(RecvTimeoutError::Disconnected) => Err(self.crash()?),
+            Ok(Err(error)) if error.kind() == ErrorKind::UnexpectedEof => Err(self.crash()?),
+            Ok(Err(error)) => Err(Fault::Malformed(clean(&error.to_string()))),
+            Err(RecvTimeoutError::Timeout) => {
+                sandbox::end(&mut self.child);
+                self.ended = true;
+                Err(Fault::Timeout(time))
+            }
+        })
+    }
+
+    /// How the process ended by itself.
+    fn crash(&mut self) -> Result<Fault> {
+        // The pipe may close a moment before the process is gone.
+        std::thread::sleep(Duration::from_millis(20));
+        if let Ok(Some(status)) = self.child.try_wait()
+            && !self.ended
+        {
+            sandbox::blame_machine(status, "the hand-in's program")?;
+        }
+        sandbox::end(&mut self.child);
+        Ok(Fault::Crash(self.child.wait().map_or_else(|error| error.to_string(), describe)))
+    }
+}
+
+/// Starts a program, which may have been written a moment ago.
+///
+/// While another thread is between fork and exec, its child has all files open that this process had, and one that is
+/// open for writing cannot be run.
+fn spawn(command: &mut Command) -> std::io::Result<Child> {
+    for _ in 0..100 {
+        match command.spawn() {
+            Err(error) if error.kind() == ErrorKind::ExecutableFileBusy => {
+                std::thread::sleep(Duration::from_millis(5));
+            }
+            other => return other,
+        }
+    }
+    command.spawn()
+}
+
+/// How a process ended, and what that may mean.
+fn describe(status: ExitStatus) -> String {
+    #[cfg(unix)]
+    if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
+        let abort = rustix::process::Signal::ABORT.as_raw();
+        let why = if signal == abort { ": out of memory, stack overflow, or it aborted itself" } else { "" };
+        return format!("{status}{why}");
+    }
+    status.to_string()
+}
+
+/// Has a thread write messages, so that a process that does not read them costs nobody else any time.
+fn send(mut pipe: ChildStdin) -> Sender<Vec<u8>> {
+    let (sender, messages) = channel::<Vec<u8>>();
+    std::thread::spawn(move || {
+        for message in messages {
+            if pipe.write_all(&message).is_err() {
+                break;
+            }
+        }
+    });
+    sender
+}
+
+/// Has a thread read messages of at most `limit` bytes.
+fn receive(pipe: ChildStdout, limit: u32) -> Receiver<std::io::Result<Option<Response>>> {
+    let (sender, responses) = channel();
+    std::thread::spawn(move || {
+        let mut answers = BufReader::new(pipe);
+        loop {
+            let message = read_message(&mut answers, limit);
+            let last = !matches!(message, Ok(Some(_)));
+            if sender.send(message).is_err() || last {
+                break;
+            }
+        }
+    });
+    responses
+}
+
+impl Drop for HostProcess {
+    fn drop(&mut self) {
+        sandbox::end(&mut self.child);
+        let _ = self.child.wait();
+    }
+}
+
+fn unexpected<T>(response: Response) -> Answer<T> {
+    match response {
+        Response::Panicked { message } => Ok(Err(Fault::Panic(clean(&message)))),
+        Response::Rejected { message } => Err(Error::Harness(format!("the host rejected a job: {message}"))),
+        Response::Started(_) => Ok(Err(Fault::Malformed("it started anew".to_owned()))),
+        Response::SceneReady => Ok(Err(Fault::Malformed("it only said that a scene is ready".to_owned()))),
+        Response::Replayed(_) => Ok(Err(Fault::Malformed("a path that nobody asked for".to_owned()))),
+        Response::Probed(_) => Ok(Err(Fault::Malformed("paths that nobody asked for".to_owned()))),
+        Response::Rendered(_) => Ok(Err(Fault::Malformed("a rendering that nobody asked for".to_owned()))),
+    }
+}
+
+fn check_shape(rendered: Rendered, batches: usize, pixels: usize) -> std::result::Result<Rendered, Fault> {
+    let whole =
+        rendered.batches.len() == batches && rendered.batches.iter().all(|batch| batch.len() == pixels);
+    if !whole {
+        return Err(Fault::Malformed("the number of batches or pixels is wrong".to_owned()));
+    }
+    if rendered.batches.iter().flatten().flatten().any(|value| !value.is_finite()) {
+        return Err(Fault::Malformed("a mean that is not finite".to_owned()));
+    }
+    Ok(rendered)
+}

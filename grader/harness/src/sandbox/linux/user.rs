@@ -1,0 +1,124 @@
+//! The other user that hand-ins run as when the grader is root.
+
+use std::os::unix::fs::{MetadataExt, chown};
+use std::path::Path;
+use std::sync::OnceLock;
+
+use rustix::process::geteuid;
+use rustix::process::{Gid, Uid};
+use rustix::thread::{
+    CapabilitiesSecureBits, CapabilitySet, CapabilitySets, configure_capability_in_ambient_set,
+    set_capabilities, set_capabilities_secure_bits, set_thread_groups, set_thread_res_gid,
+    set_thread_res_uid,
+};
+
+use super::super::Grants;
+use verdict::error::{Error, Result};
+
+/// `nobody`, on every Linux.
+const NOBODY: u32 = 65534;
+
+/// Who hand-ins run as.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum User {
+    /// The same user as the grader, who is not root.
+    Same,
+    /// Another one.
+    Other,
+    /// Root, and why.
+    Root(String),
+}
+
+impl User {
+    /// Who it would be here, by what can be seen.
+    pub(super) fn here() -> Self {
+        let folder = std::env::temp_dir();
+        if !geteuid().is_root() {
+            Self::Same
+        } else if !folder.ancestors().all(|folder| anyone_may(folder, 0o001)) {
+            Self::Root(format!(
+                "the folder for temporary files, {}, is closed to others; set TMPDIR to one that is not",
+                folder.display()
+            ))
+        } else {
+            Self::Other
+        }
+    }
+
+    /// Becomes that user, in the calling thread alone; root if that is not possible.
+    pub(super) fn confirm(self) -> Self {
+        if self != Self::Other {
+            return self;
+        }
+        match switch_user(Switch::default()) {
+            Ok(()) if !geteuid().is_root() => Self::Other,
+            Ok(()) => Self::Root("the user id cannot be changed here".to_owned()),
+            Err(error) => Self::Root(format!("the user id cannot be changed here ({error})")),
+        }
+    }
+}
+
+/// How to become the other user.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Switch {
+    /// The right of root's to read all files, if it is to be kept.
+    pub(super) reads_all: Option<CapabilitySet>,
+}
+
+/// Makes the calling thread the other user's, for good. It allocates nothing.
+pub(super) fn switch_user(switch: Switch) -> std::io::Result<()> {
+    let (user, group) = (Uid::from_raw(NOBODY), Gid::from_raw(NOBODY));
+    if switch.reads_all.is_some() {
+        // Rights outlive the change, and count for `access`, too, by which gcc looks for its parts.
+        set_capabilities_secure_bits(CapabilitiesSecureBits::NO_SETUID_FIXUP)?;
+    }
+    set_thread_groups(&[])?;
+    set_thread_res_gid(group, group, group)?;
+    set_thread_res_uid(user, user, user)?;
+    if let Some(read) = switch.reads_all {
+        set_capabilities(None, CapabilitySets { effective: read, permitted: read, inheritable: read })?;
+        configure_capability_in_ambient_set(read, true)?;
+    }
+    Ok(())
+}
+
+/// The right of root's by which the other user could read all files; `None` if root has none to give here.
+pub(super) fn right_to_read_all() -> Option<CapabilitySet> {
+    static RIGHT: OnceLock<Option<CapabilitySet>> = OnceLock::new();
+    // A container's root has often only the second, which is more than is needed, and less than to stay root.
+    let works = |right: &CapabilitySet| {
+        let switch = Switch { reads_all: Some(*right) };
+        // In a thread of its own, which ends with what it has become.
+        matches!(std::thread::spawn(move || switch_user(switch)).join(), Ok(Ok(())))
+    };
+    *RIGHT
+        .get_or_init(|| [CapabilitySet::DAC_READ_SEARCH, CapabilitySet::DAC_OVERRIDE].into_iter().find(works))
+}
+
+/// Gives a folder and its files to the user that hand-ins run as.
+///
+/// # Errors
+/// Whatever the file system says.
+pub(crate) fn hand_over(folder: &Path) -> Result<()> {
+    if super::Machine::here().user != User::Other {
+        return Ok(());
+    }
+    let trouble = |error| Error::Harness(format!("{}: {error}", folder.display()));
+    for entry in std::fs::read_dir(folder).map_err(trouble)? {
+        let file = entry.map_err(trouble)?.path();
+        chown(file, Some(NOBODY), Some(NOBODY)).map_err(trouble)?;
+    }
+    chown(folder, Some(NOBODY), Some(NOBODY)).map_err(trouble)
+}
+
+/// Whether any user can read these files, as far as their modes tell.
+pub(super) fn anyone_reads(grants: &Grants) -> bool {
+    grants.read.iter().all(|path| {
+        anyone_may(path, 0o004) && path.ancestors().skip(1).all(|folder| anyone_may(folder, 0o001))
+    })
+}
+
+/// Whether the mode of a file gives others these rights.
+fn anyone_may(path: &Path, rights: u32) -> bool {
+    std::fs::metadata(path).is_ok_and(|metadata| metadata.mode() & rights == rights)
+}

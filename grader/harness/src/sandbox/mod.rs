@@ -1,0 +1,30 @@
+//! Keeping what a student wrote from everything but its own points.
+//!
+//! Two things run on behalf of a hand-in, and each gets a sandbox of its own: **rustc**, since `include_str!` and its
+//! kin read files at compile time, and the **host**, which runs what was compiled. The compiler may read the
+//! toolchain, the framework and its own folder, write there, and start the linker. The host may read, write and start
+//! nothing: it locks itself in ([`host::confine`]). Both get limits of time and memory, an empty environment, another
+//! user id when the grader runs as root, and are ended together with everything that they have started.
+//!
+//! What of it a machine really does is tried out, never assumed, and every report has it as a [`Level`].
+
+mod grants;
+mod limits;
+mod process;
+
+#[cfg(not(target_os = "linux"))]
+mod elsewhere;
+#[cfg(target_os = "linux")]
+mod linux;
+#[cfg(not(target_os = "linux"))]
+use elsewhere as system;
+#[cfg(target_os = "linux")]
+use linux as system;
+
+pub use grants::Grants;
+pub use grants::linker;
+pub use limits::Limits;
+pub(crate) use process::{Profile, blame_machine, end, prepare};
+pub use system::Machine;
+pub(crate) use system::{hand_over, processor_time};
+pub use verdict::sandbox::{Layers, Level};

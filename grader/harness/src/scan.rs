@@ -1,0 +1,162 @@
+//! What a hand-in names that it has no business with: files, processes, the network.
+//!
+//! This is for people: it says which line asks for what the sandbox refuses. It guarantees nothing, and costs no points
+//! by itself; the sandbox does not need it. Comments and strings are not code and are never hit.
+
+use std::str::FromStr;
+
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use verdict::report::Reason;
+use verdict::submission::SourceFinding;
+
+/// Findings that are listed at most.
+const LISTED: usize = 20;
+
+/// Parts of the standard library that reach out of the process.
+const MODULES: [(&str, &str); 6] = [
+    ("process", "a hand-in may neither start nor end processes"),
+    ("fs", "a hand-in has no files"),
+    ("net", "a hand-in has no network"),
+    ("env", "a hand-in has no environment"),
+    ("os", "a hand-in has nothing to ask of the operating system"),
+    ("path", "a hand-in has no files"),
+];
+
+/// Macros that look at the machine that compiles.
+const MACROS: [(&str, &str); 5] = [
+    ("include", "a hand-in is one file"),
+    ("include_str", "a hand-in reads no files, not even when it is compiled"),
+    ("include_bytes", "a hand-in reads no files, not even when it is compiled"),
+    ("env", "a hand-in has no environment, not even when it is compiled"),
+    ("option_env", "a hand-in has no environment, not even when it is compiled"),
+];
+
+/// Looks through a source. One that is no Rust has no findings: the compiler says more about it.
+pub fn scan(source: &str) -> Vec<SourceFinding> {
+    let Ok(tokens) = TokenStream::from_str(source) else { return Vec::new() };
+    let mut findings = Vec::new();
+    // What is still to be looked at, with whether it is a list of names below `std`. No recursion: parentheses may be
+    // nested as deeply as a student likes.
+    let mut waiting = vec![(tokens, false)];
+    while let Some((tokens, below_std)) = waiting.pop() {
+        let tokens: Vec<TokenTree> = tokens.into_iter().collect();
+        for (index, token) in tokens.iter().enumerate() {
+            let rest = &tokens[index..];
+            if let TokenTree::Group(group) = token {
+                let list = index.checked_sub(3).map(|start| &tokens[start..]);
+                let of_std = group.delimiter() == Delimiter::Brace && list.is_some_and(is_path_into_std);
+                waiting.push((group.stream(), of_std));
+            }
+            let starts = index == 0 || is_punctuation(&tokens[index - 1], ',');
+            let found = macro_call(rest)
+                .or_else(|| attribute(rest))
+                .or_else(|| is_path_into_std(rest).then(|| module(rest.get(3)?)).flatten())
+                .or_else(|| (below_std && starts).then(|| module(token)).flatten());
+            findings.extend(found.map(|(what, why)| SourceFinding {
+                reason: Reason::Violation,
+                line: token.span().start().line,
+                what,
+                why: why.to_owned(),
+            }));
+        }
+    }
+    findings.sort_by_key(|finding| finding.line);
+    findings.dedup();
+    findings.truncate(LISTED);
+    findings
+}
+
+/// `std::` or `core::`, whatever comes then.
+fn is_path_into_std(tokens: &[TokenTree]) -> bool {
+    matches!(tokens, [root, one, two, ..]
+        if matches!(name(root).as_deref(), Some("std" | "core")) && is_punctuation(one, ':') && is_punctuation(two, ':'))
+}
+
+fn module(token: &TokenTree) -> Option<(String, &'static str)> {
+    let name = name(token)?;
+    let (module, why) = MODULES.iter().find(|(module, _)| *module == name)?;
+    Some((format!("std::{module}"), why))
+}
+
+fn macro_call(tokens: &[TokenTree]) -> Option<(String, &'static str)> {
+    let name = tokens.first().and_then(name)?;
+    tokens.get(1).filter(|token| is_punctuation(token, '!'))?;
+    let (called, why) = MACROS.iter().find(|(called, _)| *called == name)?;
+    Some((format!("{called}!"), why))
+}
+
+/// `#[path = …]`, in `cfg_attr` too.
+fn attribute(tokens: &[TokenTree]) -> Option<(String, &'static str)> {
+    let [mark, TokenTree::Group(group), ..] = tokens else { return None };
+    let attribute: Vec<TokenTree> = group.stream().into_iter().collect();
+    let sets_path = |tokens: &[TokenTree]| matches!(tokens, [path, equals, ..] if name(path).as_deref() == Some("path") && is_punctuation(equals, '='));
+    let conditional = attribute.first().and_then(name).as_deref() == Some("cfg_attr");
+    let inner: Vec<TokenTree> = match attribute.get(1) {
+        Some(TokenTree::Group(group)) if conditional => group.stream().into_iter().collect(),
+        _ => Vec::new(),
+    };
+    let found = is_punctuation(mark, '#')
+        && (sets_path(&attribute) || (0..inner.len()).any(|start| sets_path(&inner[start..])));
+    found.then(|| ("#[path]".to_owned(), "a hand-in is one file"))
+}
+
+/// An identifier, raw or not.
+fn name(token: &TokenTree) -> Option<String> {
+    let TokenTree::Ident(identifier) = token else { return None };
+    let name = identifier.to_string();
+    Some(name.strip_prefix("r#").map_or(name.clone(), str::to_owned))
+}
+
+fn is_punctuation(token: &TokenTree, character: char) -> bool {
+    matches!(token, TokenTree::Punct(mark) if mark.as_char() == character)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(source: &str) -> Vec<(usize, String)> {
+        scan(source).into_iter().map(|finding| (finding.line, finding.what)).collect()
+    }
+
+    #[test]
+    fn what_reaches_out_is_named_with_its_line() {
+        for (source, what) in [
+            ("\nfn f() -> &'static str { include_str!(\"x\") }", "include_str!"),
+            ("\nconst X: &[u8] = std::r#include_bytes!(\"x\");", "include_bytes!"),
+            ("\n#[path = \"x.rs\"] mod x;", "#[path]"),
+            ("\n#[cfg_attr(all(), path = \"x.rs\")] mod x;", "#[path]"),
+            ("\nconst X: &str = env!(\"X\");", "env!"),
+            ("\nfn f() { std::process::exit(0) }", "std::process"),
+            ("\nuse std::fs::File;", "std::fs"),
+            ("\nuse std::{f32::consts::PI, net};", "std::net"),
+            ("\nuse ::std::{cell::Cell, r#fs::File};", "std::fs"),
+            ("\nuse std::os::fd::FromRawFd;", "std::os"),
+        ] {
+            assert_eq!(found(source), [(2, what.to_owned())], "{source}");
+        }
+    }
+
+    #[test]
+    fn honest_code_that_only_mentions_such_words_is_not_hit() {
+        let source = r##"
+            // Do not use std::fs or include_str!("x") here, nor #[path = "x"].
+            /// std::process::exit
+            use std::{f32::consts::PI, sync::Mutex};
+            fn path(process: f32, fs: f32, net: f32, env: f32) -> f32 { process * fs + net * env * PI }
+            struct S { path: f32 }
+            fn g() { let s = "std::net include_str!(\"x\")"; let r = r#"env!("X")"#; println!("{s} {r}"); }
+            #[derive(Clone)] struct Path { fs: Mutex<f32> }
+            use std::cell::{Cell as process};
+        "##;
+        assert_eq!(found(source), []);
+    }
+
+    #[test]
+    fn no_source_takes_the_scan_down() {
+        let deep = "(".repeat(200_000) + &")".repeat(200_000);
+        assert_eq!(found(&deep), []);
+        assert_eq!(found("\" never ended"), []);
+        assert_eq!(found(&"include_str!(\"x\");\n".repeat(10_000)).len(), LISTED);
+    }
+}

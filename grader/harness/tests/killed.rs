@@ -1,0 +1,65 @@
+//! A machine that has no memory left ends some process, and not always that of whoever is to blame.
+#![cfg(target_os = "linux")]
+
+use std::process::Command;
+use std::time::Duration;
+
+use arty::integrator::{Settings, Technique};
+use harness::build::{Framework, compile};
+use harness::host_process::HostProcess;
+use harness::sandbox::Limits;
+use harness::workspace::Workspace;
+use host::protocol::{RenderJob, Switches};
+use verdict::error::Error;
+
+const ENDLESS: &str = "use arty::prelude::*;
+pub struct PathTracer;
+impl PathTracer { pub fn new(_: Settings) -> Self { Self } }
+impl Integrator for PathTracer {
+    fn radiance(&self, _: &Scene, _: Ray, _: &mut Sampler) -> Rgb { loop { std::hint::spin_loop() } }
+}
+";
+
+/// The processes that this one has started.
+fn children() -> Vec<u32> {
+    let own = std::process::id().to_string();
+    let processes = std::fs::read_dir("/proc").expect("it is there").flatten();
+    processes
+        .filter_map(|entry| entry.file_name().to_str()?.parse().ok())
+        .filter(|process: &u32| {
+            let stat = std::fs::read_to_string(format!("/proc/{process}/stat")).unwrap_or_default();
+            // The name, in parentheses, may hold anything; the parent is the second field after it.
+            stat.rsplit(')').next().and_then(|rest| rest.split(' ').nth(2)) == Some(own.as_str())
+        })
+        .collect()
+}
+
+#[test]
+fn a_process_that_is_ended_from_outside_is_not_the_hand_in_s_fault() {
+    let workspace = Workspace::find().expect("the tests run inside the checkout");
+    let framework = Framework::build(&workspace).expect("the framework builds");
+    let program = compile(&framework, ENDLESS, &Limits::default()).expect("rustc runs").expect("it compiles");
+    let scene =
+        arty::scene::file::load(&workspace.scene_file("point_plane")).expect("it is there").description;
+    let mut process = HostProcess::start(&program, 1).expect("the program starts");
+    let scene = process.load(&scene).expect("the pipe holds").expect("the scene loads");
+    let job = RenderJob {
+        scene,
+        settings: Settings { technique: Technique::Nee, max_bounces: 1 },
+        width: 16,
+        height: 16,
+        seeds: vec![1],
+        first_sample: 0,
+        samples: 16,
+        switches: Switches::default(),
+    };
+    let [child] = children()[..] else { panic!("{:?}", children()) };
+    let killer = std::thread::spawn(move || {
+        std::thread::sleep(Duration::from_millis(300));
+        let kill = Command::new("bash").args(["-c", &format!("kill -KILL {child}")]).status();
+        assert!(kill.expect("bash starts").success());
+    });
+    let outcome = process.render(&job);
+    killer.join().expect("it was killed");
+    assert!(matches!(&outcome, Err(Error::Harness(why)) if why.contains("from outside")), "{outcome:?}");
+}

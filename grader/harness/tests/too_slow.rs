@@ -1,0 +1,76 @@
+//! Hand-ins that take too long. Alone in this file: other tests at the same time would take their time on a processor.
+#![cfg(target_os = "linux")]
+
+use std::time::Duration;
+
+use arty::integrator::{Settings, Technique};
+use harness::build::{Framework, compile};
+use harness::host_process::{Fault, HostProcess};
+use harness::sandbox::Limits;
+use harness::workspace::Workspace;
+use host::protocol::{RenderJob, Switches};
+
+#[test]
+fn nobody_waits_to_the_end_for_a_hand_in_that_is_too_slow_by_far_unless_it_had_no_time() {
+    let workspace = Workspace::find().expect("the tests run inside the checkout");
+    let framework = Framework::build(&workspace).expect("the framework builds");
+    let scene = arty::scene::file::load(&workspace.scene_file("point_plane")).expect("it is there");
+    // 16 batches of one pixel, on one thread, within 3 s: each may take about 190 ms, and the first two 500 together.
+    let render = |sample: &str| {
+        let source = format!(
+            "use arty::prelude::*;
+            pub struct PathTracer;
+            impl PathTracer {{ pub fn new(_: Settings) -> Self {{ Self }} }}
+            impl Integrator for PathTracer {{
+                fn radiance(&self, _: &Scene, _: Ray, sampler: &mut Sampler) -> Rgb {{
+                    {sample};
+                    Rgb::WHITE * sampler.next_1d()
+                }}
+            }}"
+        );
+        let limits = Limits { job_time: Duration::from_secs(3), ..Limits::default() };
+        let program = compile(&framework, &source, &limits).expect("rustc runs").expect("it compiles");
+        let process = HostProcess::start(&program, 1).expect("the program starts");
+        let mut process = process.within(limits.job_time);
+        let scene = process.load(&scene.description).expect("the pipe holds").expect("the scene loads");
+        let job = |seeds: std::ops::Range<u64>| RenderJob {
+            scene,
+            settings: Settings { technique: Technique::Nee, max_bounces: 1 },
+            width: 1,
+            height: 1,
+            seeds: seeds.collect(),
+            first_sample: 0,
+            samples: 1,
+            switches: Switches::default(),
+        };
+        [0..16, 5..6, 16..32].map(|seeds| process.render(&job(seeds)).expect("the pipe holds"))
+    };
+    let work = |milliseconds: u64| {
+        format!(
+            "let start = std::time::Instant::now();
+            while start.elapsed() < std::time::Duration::from_millis({milliseconds}) {{}}"
+        )
+    };
+    let [whole, sixth, _] = render(&work(20));
+    let (whole, sixth) = (whole.expect("it is fast enough"), sixth.expect("it still is"));
+    // Rendering in two parts changes nothing.
+    assert_eq!((whole.batches.len(), &whole.batches[5]), (16, &sixth.batches[0]));
+
+    let too_slow = Err(Fault::TooSlow(Duration::from_millis(500)));
+    assert_eq!(render(&work(400))[0], too_slow);
+    // Slower from the 18th sample on: that is no longer tried first, since it went well before.
+    let later = format!(
+        "static COUNT: std::sync::atomic::AtomicU32 = std::sync::atomic::AtomicU32::new(0);
+        if COUNT.fetch_add(1, std::sync::atomic::Ordering::Relaxed) >= 17 {{ {} }}",
+        work(400)
+    );
+    assert_eq!(render(&later)[2], Err(Fault::Timeout(Duration::from_secs(3))));
+    // Who sleeps is taken for one whom the machine lets wait.
+    let asleep = "std::thread::sleep(std::time::Duration::from_millis(600))";
+    assert_eq!(render(asleep)[0], Err(Fault::Timeout(Duration::from_secs(3))));
+    let awake_later =
+        format!("static ONCE: std::sync::Once = std::sync::Once::new(); ONCE.call_once(|| {asleep})");
+    assert!(render(&awake_later).iter().all(Result::is_ok));
+    // No job takes longer than it may; all together do.
+    assert_eq!(render(&work(100))[2], Err(Fault::Timeout(Duration::from_secs(3))));
+}

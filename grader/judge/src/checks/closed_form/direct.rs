@@ -1,0 +1,107 @@
+//! Light that is scattered once, from points and from polygons of which all or nothing is seen.
+
+use std::f64::consts::PI;
+
+use arty::math::Vec3;
+use arty::scene::{Hit, LightDescription, SceneDescription};
+use glam::DVec3;
+
+use super::pixels::Pixels;
+use super::polygon;
+use crate::checks::JudgedScene;
+use verdict::rubric::Hits;
+
+/// A light that has a formula.
+enum Source {
+    /// With the intensity I = Φ / 4π: E = I cos θ / d².
+    Point { position: Vec3, intensity: [f64; 3] },
+    /// A triangle that emits from its front.
+    Triangle { corners: [DVec3; 3], radiance: [f64; 3] },
+}
+
+/// With more lights than this nobody would want to add up their formulas.
+const MOST_LIGHTS: usize = 64;
+
+/// What each pixel shows; without what lights show of themselves where hits are off.
+pub(super) fn picture(judged: &JudgedScene, hits: Hits, rays: u32) -> Result<Pixels, String> {
+    let sources = sources(&judged.description)?;
+    if sources.len() > MOST_LIGHTS {
+        return Err(format!("there are {} lights, too many to add up their formulas", sources.len()));
+    }
+    Pixels::integrate(&judged.scene, rays, |ray| {
+        let Some(hit) = judged.scene.intersect(ray) else { return Ok([0.0; 3]) };
+        let light = hit.light().filter(|_| hits == Hits::On);
+        let emitted = light.map_or([0.0; 3], |light| light.emission(&hit).radiance.to_array().map(f64::from));
+        // A diffuse surface sends the same in every direction: f = ρ / π.
+        let reflected = hit.bsdf().eval(hit.normal).to_array().map(f64::from);
+        let mut radiance = emitted;
+        if reflected != [0.0; 3] {
+            for source in &sources {
+                let irradiance = source.irradiance(judged, &hit)?;
+                (0..3).for_each(|channel| radiance[channel] += reflected[channel] * irradiance[channel]);
+            }
+        }
+        Ok(radiance)
+    })
+}
+
+fn sources(description: &SceneDescription) -> Result<Vec<Source>, String> {
+    let mut sources = Vec::new();
+    for light in &description.lights {
+        sources.push(match *light {
+            LightDescription::Point { position, power } => {
+                let intensity = power.to_array().map(|power| f64::from(power) / (4.0 * PI));
+                Source::Point { position, intensity }
+            }
+            LightDescription::Triangle { vertices, radiance } => Source::Triangle {
+                corners: vertices.map(Vec3::as_dvec3),
+                radiance: radiance.to_array().map(f64::from),
+            },
+            LightDescription::Spot { .. } => return Err("a spot light has no closed form here".to_owned()),
+        });
+    }
+    for mesh in &description.meshes {
+        for triangle in &mesh.triangles {
+            let radiance = description.materials[triangle.material as usize].emission;
+            if !radiance.is_black() {
+                let corners = triangle.positions.map(|corner| mesh.positions[corner as usize].as_dvec3());
+                sources.push(Source::Triangle { corners, radiance: radiance.to_array().map(f64::from) });
+            }
+        }
+    }
+    Ok(sources)
+}
+
+impl Source {
+    fn irradiance(&self, judged: &JudgedScene, hit: &Hit<'_>) -> Result<[f64; 3], String> {
+        let (point, normal) = (hit.point.as_dvec3(), hit.normal.as_dvec3());
+        match self {
+            Self::Point { position, intensity } => {
+                let to_light = position.as_dvec3() - point;
+                let cos = normal.dot(to_light.normalize());
+                if cos <= 0.0 || judged.scene.occluded(hit, *position) {
+                    return Ok([0.0; 3]);
+                }
+                Ok(intensity.map(|intensity| intensity * cos / to_light.length_squared()))
+            }
+            Self::Triangle { corners, radiance } => {
+                let [a, b, c] = *corners;
+                let faces = (b - a).cross(c - a).dot(point - a) > 0.0;
+                let form = polygon::irradiance(point, normal, corners);
+                if !faces || form <= 0.0 {
+                    return Ok([0.0; 3]);
+                }
+                let inside = (a + b + c) / 3.0;
+                for place in
+                    [inside, 0.98 * a + 0.02 * inside, 0.98 * b + 0.02 * inside, 0.98 * c + 0.02 * inside]
+                {
+                    let above = normal.dot(place - point) > 0.0;
+                    if above && judged.scene.occluded(hit, place.as_vec3()) {
+                        return Err("a light with an area is partly hidden".to_owned());
+                    }
+                }
+                Ok(radiance.map(|radiance| radiance * form))
+            }
+        }
+    }
+}

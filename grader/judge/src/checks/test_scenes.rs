@@ -1,0 +1,17 @@
+//! Scenes of the collection, for tests.
+
+use arty::scene::Scene;
+
+use super::JudgedScene;
+use crate::reference;
+use harness::workspace::Workspace;
+
+/// A scene with its reference.
+pub(super) fn judged(name: &str) -> JudgedScene {
+    let workspace = Workspace::find().expect("this is the repository");
+    let description =
+        arty::scene::file::load(&workspace.scene_file(name)).expect("the scene is right").description;
+    let reference = reference::load(&workspace.reference_file(name), name, &description)
+        .expect("the reference is up to date");
+    JudgedScene { scene: Scene::new(&description), description, reference }
+}

@@ -1,0 +1,54 @@
+//! The short version that is part of every grade.
+
+use arty::integrator::Technique;
+
+use super::measure::{Contestant, Options, measure};
+use harness::build::HandInProgram;
+use harness::workspace::Workspace;
+use verdict::convergence::{Convergence, Role};
+use verdict::error::Result;
+use verdict::report::LeftOut;
+
+/// The two scenes in which the techniques differ most in a short time.
+const SCENES: [&str; 2] = ["cornell_box", "veach_mis"];
+
+/// Processor time of all renderings, in seconds.
+const SECONDS: f64 = 1.8;
+
+/// Measures `mis` of a hand-in beside that of the solution and plain BSDF sampling, in about two seconds. In a checkout
+/// without the solution the hand-in's own BSDF sampling is all that there is to compare with.
+///
+/// # Errors
+/// What is not the hand-in's doing.
+pub fn brief(
+    workspace: &Workspace,
+    hand_in: &HandInProgram,
+    solution: Option<&HandInProgram>,
+    seed: u64,
+) -> Result<Convergence> {
+    let contestant = |name: &str, role, program| Contestant { name: name.to_owned(), role, program };
+    let mut contestants = vec![contestant("hand-in", Role::Submission, hand_in)];
+    contestants.extend(solution.map(|program| contestant("solution", Role::Solution, program)));
+    contestants.push(contestant("BSDF sampling", Role::Baseline, solution.unwrap_or(hand_in)));
+    let options = Options {
+        scenes: SCENES.map(str::to_owned).to_vec(),
+        techniques: vec![Technique::Mis],
+        seconds: SECONDS,
+        target: None,
+        seed,
+        threads: 1,
+        lengths: 5,
+    };
+    let mut convergence = measure(workspace, &contestants, &options, |_| {})?;
+    if solution.is_none() {
+        convergence.left_out.insert(
+            0,
+            LeftOut {
+                check: "convergence of the solution".to_owned(),
+                scene: String::new(),
+                why: "there is no solution in this checkout to compare with".to_owned(),
+            },
+        );
+    }
+    Ok(convergence)
+}

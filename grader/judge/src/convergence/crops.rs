@@ -1,0 +1,143 @@
+//! What errors look like: the same part of a picture by each program, after the same processor time.
+
+use arty::integrator::Settings;
+use arty::sampler::batch_seed;
+use host::protocol::{RenderJob, Switches};
+
+use verdict::convergence::{Convergence, Crop, Crops, Curve, Panel, Role};
+
+use super::Contestant;
+use crate::image_error::{Truth, relative_mse, relative_weight};
+use crate::pictures::{Shown, half_size};
+use crate::reference::SIZE;
+use harness::host_process::HostProcess;
+use harness::workspace::Workspace;
+use verdict::error::Result;
+
+/// Processor time of each rendering, in seconds.
+const SECONDS: f64 = 0.25;
+
+/// Width and height of a crop, in pixels, and the steps in which its place is looked for.
+const CROP: usize = 48;
+const STEP: usize = 8;
+
+/// Renders crops for all panels, where the solution (without one, the first program) has the most error. A program that
+/// does not answer, and a scene without a picture for looking at, is left out.
+///
+/// # Errors
+/// What is not a hand-in's doing.
+pub fn crops(
+    workspace: &Workspace,
+    contestants: &[Contestant<'_>],
+    convergence: &Convergence,
+) -> Result<Vec<Crops>> {
+    let mut all = Vec::new();
+    for panel in &convergence.panels {
+        all.extend(of_panel(workspace, contestants, convergence, panel)?);
+    }
+    Ok(all)
+}
+
+fn of_panel(
+    workspace: &Workspace,
+    contestants: &[Contestant<'_>],
+    convergence: &Convergence,
+    panel: &Panel,
+) -> Result<Option<Crops>> {
+    let description = arty::scene::file::load(&workspace.scene_file(&panel.scene))?.description;
+    let Some(shown) = half_size(workspace, &panel.scene, &description) else { return Ok(None) };
+    let Shown { reference, width, height, max_bounces } = &shown;
+    let (width, height) = (*width, *height);
+    let mut rendered: Vec<(&Curve, u64, Vec<[f64; 3]>)> = Vec::new();
+    for curve in &panel.curves {
+        // There is one baseline; what it misses is added to its name.
+        let is_its = |it: &&Contestant<'_>| {
+            it.role == curve.role && (it.role == Role::Baseline || it.name == curve.name)
+        };
+        let Some(contestant) = contestants.iter().find(is_its) else { continue };
+        let Some(samples) = samples(curve, width * height) else { continue };
+        let mut process = HostProcess::start(contestant.program, convergence.threads)?;
+        let Ok(scene) = process.load(&description)? else { continue };
+        let job = RenderJob {
+            scene,
+            settings: Settings { technique: curve.technique, max_bounces: *max_bounces },
+            width: width as u32,
+            height: height as u32,
+            seeds: vec![batch_seed(convergence.seed, 0)],
+            first_sample: 0,
+            samples,
+            switches: Switches::default(),
+        };
+        let Ok(answer) = process.render(&job)? else { continue };
+        if let Some(picture) = answer.batches.into_iter().next() {
+            rendered.push((curve, samples, picture.iter().map(|pixel| pixel.map(f64::from)).collect()));
+        }
+    }
+    let solution = rendered.iter().find(|(curve, ..)| curve.role == Role::Solution);
+    let Some((_, _, guide)) = solution.or(rendered.first()) else { return Ok(None) };
+    let corner = worst(guide, reference, (width, height));
+    let (columns, rows) = (CROP.min(width), CROP.min(height));
+    let part = |picture: &[[f64; 3]]| {
+        let row = |y: usize| &picture[(corner.1 + y) * width + corner.0..][..columns];
+        (0..rows).flat_map(row).copied().collect::<Vec<[f64; 3]>>()
+    };
+    let truth = Truth { mean: reference, variance: None };
+    let mut list: Vec<Crop> = rendered
+        .iter()
+        .map(|(curve, samples, picture)| Crop {
+            name: curve.name.clone(),
+            samples: Some(*samples),
+            relative_mse: Some(relative_mse(picture, truth)),
+            pixels: part(picture),
+            width: columns,
+            height: rows,
+        })
+        .collect();
+    list.push(Crop {
+        name: "reference".to_owned(),
+        samples: None,
+        relative_mse: None,
+        pixels: part(reference),
+        width: columns,
+        height: rows,
+    });
+    Ok(Some(Crops { scene: panel.scene.clone(), technique: panel.technique, seconds: SECONDS, list }))
+}
+
+/// Samples of each of so many pixels for which a program takes [`SECONDS`], by its longest renderings; at least one.
+fn samples(curve: &Curve, pixels: usize) -> Option<u64> {
+    let point = curve.points.last().filter(|point| point.seconds > 0.0 && point.samples > 0)?;
+    let of_one = point.seconds / (point.samples * u64::from(SIZE.0 * SIZE.1)) as f64;
+    Some(((SECONDS / (of_one * pixels as f64)).round() as u64).clamp(1, 1 << 16))
+}
+
+/// The upper left corner of the crop with the most relative squared error.
+fn worst(picture: &[[f64; 3]], reference: &[[f64; 3]], (width, height): (usize, usize)) -> (usize, usize) {
+    let error = |index: usize| -> f64 {
+        let pairs = picture[index].iter().zip(&reference[index]);
+        pairs.map(|(x, &r)| relative_weight(r) * (x - r).powi(2)).sum()
+    };
+    let of_crop = |&(left, top): &(usize, usize)| -> f64 {
+        let rows = top..(top + CROP).min(height);
+        rows.flat_map(|y| (left..(left + CROP).min(width)).map(move |x| y * width + x)).map(error).sum()
+    };
+    let corners = (0..=height.saturating_sub(CROP))
+        .step_by(STEP)
+        .flat_map(|top| (0..=width.saturating_sub(CROP)).step_by(STEP).map(move |left| (left, top)));
+    corners.max_by(|a, b| of_crop(a).total_cmp(&of_crop(b))).unwrap_or((0, 0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_crop_is_where_the_error_is() {
+        let reference = vec![[1.0; 3]; 160 * 128];
+        let mut picture = reference.clone();
+        picture[100 * 160 + 130] = [5.0; 3];
+        let (left, top) = worst(&picture, &reference, (160, 128));
+        assert!((left..left + CROP).contains(&130) && (top..top + CROP).contains(&100), "{left}, {top}");
+        assert_eq!(worst(&reference[..4], &reference[..4], (2, 2)), (0, 0), "smaller than a crop");
+    }
+}

@@ -1,0 +1,252 @@
+//! Having programs render, in turns.
+
+use std::path::Path;
+
+use arty::integrator::{Settings, Technique};
+use arty::sampler::batch_seed;
+use arty::scene::{Scene, SceneDescription};
+
+use super::estimate::{Estimated, estimate, relative_bias_squared};
+use super::racer::{ROUNDS, Racer};
+use super::summary::{efficiency, rounded, seconds_to, slope};
+use crate::image_error::{Truth, relative_weight};
+use crate::reference::{self, Light};
+use harness::build::HandInProgram;
+use harness::host_process::HostProcess;
+use harness::workspace::Workspace;
+use verdict::convergence::{Convergence, Curve, Panel, Role};
+use verdict::error::{Error, Result};
+use verdict::report::LeftOut;
+use verdict::rubric::{Hits, View};
+
+/// What is measured.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Scenes by name.
+    pub scenes: Vec<String>,
+    /// Techniques of the hand-ins.
+    pub techniques: Vec<Technique>,
+    /// Processor time for all of it, in seconds.
+    pub seconds: f64,
+    /// The relative MSE to which times are taken; by default what the solution has in renderings of middle length.
+    pub target: Option<f64>,
+    /// The seed of all random numbers.
+    pub seed: u64,
+    /// Threads of each program.
+    pub threads: usize,
+    /// How many lengths of renderings.
+    pub lengths: u32,
+}
+
+/// A program that takes part.
+pub struct Contestant<'a> {
+    /// What it is called.
+    pub name: String,
+    /// Whose it is; [`Role::Baseline`] renders with plain BSDF sampling only.
+    pub role: Role,
+    /// The program.
+    pub program: &'a HandInProgram,
+}
+
+/// Measures all programs in all scenes. `on_round` is told how much of the work is done, in [0, 1].
+///
+/// # Errors
+/// What is not a hand-in's doing. Of a hand-in that crashes or takes too long there is no curve, and the reason why.
+pub fn measure(
+    workspace: &Workspace,
+    contestants: &[Contestant<'_>],
+    options: &Options,
+    mut on_round: impl FnMut(f64),
+) -> Result<Convergence> {
+    let Options { threads, seconds, seed, .. } = *options;
+    let mut convergence = Convergence { threads, seconds, seed, panels: Vec::new(), left_out: Vec::new() };
+    let count = options.scenes.len();
+    for (index, name) in options.scenes.iter().enumerate() {
+        let scene = ScenePlan::load(workspace, name)?;
+        let share = options.seconds / count.max(1) as f64;
+        let progress = |done: f64| on_round((index as f64 + done) / count as f64);
+        race(&scene, contestants, options, share, progress, &mut convergence)?;
+    }
+    Ok(convergence)
+}
+
+/// A scene, and what it looks like.
+struct ScenePlan {
+    name: String,
+    description: SceneDescription,
+    max_bounces: u32,
+    light: Light,
+    area_lights: usize,
+    point_lights: usize,
+}
+
+impl ScenePlan {
+    fn load(workspace: &Workspace, name: &str) -> Result<Self> {
+        let description = arty::scene::file::load(&workspace.scene_file(name))?.description;
+        let path = workspace.reference_file(name);
+        let reference = reference::load(&path, name, &description)?;
+        let (max_bounces, light) = full_light(reference, &path)?;
+        let scene = Scene::new(&description);
+        let (area_lights, point_lights) = (scene.features().area_lights, scene.features().point_lights);
+        Ok(Self { name: name.to_owned(), description, max_bounces, light, area_lights, point_lights })
+    }
+
+    fn truth(&self) -> Truth<'_> {
+        Truth { mean: &self.light.mean, variance: Some(&self.light.variance_of_mean) }
+    }
+}
+
+/// The image with all light, at the largest number of bounces.
+fn full_light(reference: reference::Reference, path: &Path) -> Result<(u32, Light)> {
+    let all = |(view, light): (View, Light)| (view.hits == Hits::On).then_some((view.max_bounces, light));
+    reference
+        .views
+        .into_iter()
+        .rev()
+        .find_map(all)
+        .ok_or_else(|| Error::file(path, "there is no image with all light in it"))
+}
+
+/// Measures all curves of one scene and adds its panels.
+fn race(
+    scene: &ScenePlan,
+    contestants: &[Contestant<'_>],
+    options: &Options,
+    seconds: f64,
+    mut on_round: impl FnMut(f64),
+    into: &mut Convergence,
+) -> Result<()> {
+    let mut processes = Vec::new();
+    for contestant in contestants {
+        let mut process = HostProcess::start(contestant.program, options.threads)?;
+        let loaded = process.load(&scene.description)?;
+        processes.push((process, loaded));
+    }
+    let mut racers = Vec::new();
+    for (index, contestant) in contestants.iter().enumerate() {
+        let baseline = contestant.role == Role::Baseline;
+        if baseline && scene.area_lights == 0 {
+            into.left_out.push(LeftOut {
+                check: format!("convergence of {}", contestant.name),
+                scene: scene.name.clone(),
+                why: "no light has an area: BSDF sampling gives black".to_owned(),
+            });
+            continue;
+        }
+        let techniques = if baseline { &[Technique::Bsdf] } else { options.techniques.as_slice() };
+        for &technique in techniques {
+            let settings = Settings { technique, max_bounces: scene.max_bounces };
+            let seed = batch_seed(options.seed, racers.len() as u64);
+            let fault = processes[index].1.as_ref().err().cloned();
+            racers.push(Racer {
+                contestant: index,
+                settings,
+                seed,
+                levels: Vec::new(),
+                non_finite: 0,
+                fault,
+            });
+        }
+    }
+    let share = seconds / racers.len().max(1) as f64;
+    for racer in &mut racers {
+        racer.plan(&mut processes[racer.contestant].0, share, options.lengths)?;
+    }
+    for round in 0..ROUNDS {
+        for level in 0..options.lengths as usize {
+            // Forwards and backwards in turn, so that a machine that slows down favours nobody.
+            for place in 0..racers.len() {
+                let index = if round % 2 == 0 { place } else { racers.len() - 1 - place };
+                let racer = &mut racers[index];
+                racer.render(&mut processes[racer.contestant].0, level, round)?;
+            }
+            on_round(
+                (round * options.lengths as usize + level + 1) as f64
+                    / (ROUNDS * options.lengths as usize) as f64,
+            );
+        }
+    }
+    drop(processes);
+    evaluate(scene, contestants, options, racers, into);
+    Ok(())
+}
+
+/// A curve with all that is needed to compare it with others.
+struct Measured {
+    curve: Curve,
+    levels: Vec<Estimated>,
+}
+
+fn evaluate(
+    scene: &ScenePlan,
+    contestants: &[Contestant<'_>],
+    options: &Options,
+    racers: Vec<Racer>,
+    into: &mut Convergence,
+) {
+    let truth = scene.truth();
+    let mut measured = Vec::new();
+    for mut racer in racers {
+        let Contestant { name, role, .. } = &contestants[racer.contestant];
+        if let Some(fault) = &racer.fault {
+            into.left_out.push(LeftOut {
+                check: format!("convergence of {name}, {}", racer.settings.technique),
+                scene: scene.name.clone(),
+                why: fault.to_string(),
+            });
+            continue;
+        }
+        let renders = racer.finish();
+        let levels: Vec<Estimated> =
+            renders.iter().filter_map(|renders| estimate(renders, truth, options.seed)).collect();
+        let bias = relative_bias_squared(&renders, truth, options.seed);
+        let curve = Curve {
+            name: match (*role, scene.point_lights) {
+                // No path hits them by chance, so that this curve must flatten.
+                (Role::Baseline, 1..) => format!("{name} (misses point lights)"),
+                _ => name.clone(),
+            },
+            role: *role,
+            technique: racer.settings.technique,
+            points: levels.iter().map(|level| level.point.clone()).collect(),
+            slope: slope(&levels),
+            efficiency: None,
+            seconds_to_target: None,
+            relative_bias_squared: bias.map(|(estimate, _)| estimate),
+            floor: bias.is_some_and(|(estimate, deviation)| estimate.value > 4.0 * deviation),
+            non_finite: racer.non_finite,
+        };
+        measured.push(Measured { curve, levels });
+    }
+    for &technique in &options.techniques {
+        into.panels.push(panel(scene, technique, options.target, &measured));
+    }
+}
+
+fn panel(scene: &ScenePlan, technique: Technique, target: Option<f64>, measured: &[Measured]) -> Panel {
+    let belongs =
+        |measured: &&Measured| measured.curve.technique == technique || measured.curve.role == Role::Baseline;
+    let shown: Vec<&Measured> = measured.iter().filter(belongs).collect();
+    let solution = shown.iter().find(|measured| measured.curve.role == Role::Solution);
+    let middle = solution.or(shown.first()).map_or(0.0, |measured| {
+        let points = &measured.curve.points;
+        points.get(points.len() / 2).map_or(0.0, |point| point.relative_mse.value)
+    });
+    let target = target.unwrap_or_else(|| rounded(middle));
+    let curve = |measured: &&Measured| Curve {
+        efficiency: solution.and_then(|solution| efficiency(&measured.levels, &solution.levels)),
+        seconds_to_target: seconds_to(target, &measured.curve.points),
+        ..measured.curve.clone()
+    };
+    let Light { mean, variance_of_mean, .. } = &scene.light;
+    let noise = mean.iter().flatten().zip(variance_of_mean.iter().flatten());
+    let noise = noise.map(|(&mean, variance)| relative_weight(mean) * variance).sum::<f64>();
+    Panel {
+        scene: scene.name.clone(),
+        technique,
+        max_bounces: scene.max_bounces,
+        target,
+        reference_noise: noise / (3 * mean.len()).max(1) as f64,
+        curves: shown.iter().map(curve).collect(),
+    }
+}

@@ -1,0 +1,149 @@
+//! One program with one technique in one scene: what it is to render, and what it has.
+
+use arty::integrator::Settings;
+use arty::sampler::batch_seed;
+use host::protocol::{RenderJob, Switches};
+
+use super::estimate::Renders;
+use crate::reference::SIZE;
+use harness::host_process::{Fault, HostProcess};
+use verdict::error::Result;
+
+/// One curve while it is measured.
+pub(super) struct Racer {
+    /// Its place among the contestants.
+    pub(super) contestant: usize,
+    pub(super) settings: Settings,
+    pub(super) seed: u64,
+    pub(super) levels: Vec<Level>,
+    pub(super) non_finite: u64,
+    /// What ended it, if anything did.
+    pub(super) fault: Option<Fault>,
+}
+
+/// Renderings of one length.
+#[derive(Default)]
+pub(super) struct Level {
+    wanted: usize,
+    renders: Renders,
+    /// Processor time of one rendering, job by job.
+    times: Vec<f64>,
+}
+
+/// Turns that the renderings of each length are divided into.
+pub(super) const ROUNDS: usize = 3;
+
+/// Renderings of the greatest length, and the most of any.
+const RENDERS: (usize, usize) = (6, 48);
+
+/// Of each length so many times as many renderings as of the next longer one.
+const MORE_OF_SHORTER: f64 = 1.5;
+
+/// A rendering takes at most this long and, the shortest ones, hardly less than that, in seconds.
+const RENDER_TIME: (f64, f64) = (0.3e-3, 5.0);
+
+/// Each length is at most so many times the next shorter one.
+const LARGEST_STEP: f64 = 4.0;
+
+impl Racer {
+    /// Warms up, sees how fast it goes, and plans renderings that take the given processor time altogether.
+    pub(super) fn plan(&mut self, process: &mut HostProcess, seconds: f64, lengths: u32) -> Result<()> {
+        let mut samples = 1;
+        let per_sample = loop {
+            // What is rendered here is left out.
+            let Some((_, time)) = self.job(process, samples, &[batch_seed(self.seed, u64::MAX)])? else {
+                return Ok(());
+            };
+            if time > (0.03 * seconds).min(0.02) || samples >= 1 << 20 {
+                break time / samples as f64;
+            }
+            samples *= 2;
+        };
+        let last = f64::from(lengths.max(2) - 1);
+        let shortest = (RENDER_TIME.0 / per_sample).max(1.0);
+        let plan = |longest: f64| -> Vec<Level> {
+            let step = (longest / shortest).powf(1.0 / last).clamp(1.0, LARGEST_STEP);
+            let level = |k: u32| {
+                let samples = (longest / step.powf(last - f64::from(k))).round().max(1.0) as u64;
+                let more = MORE_OF_SHORTER.powi((lengths - 1 - k) as i32);
+                let wanted = ((RENDERS.0 as f64 * more) as usize).min(RENDERS.1);
+                Level { wanted, renders: Renders { samples, ..Renders::default() }, times: Vec::new() }
+            };
+            let mut levels: Vec<Level> = (0..lengths).map(level).collect();
+            levels.dedup_by_key(|level| level.renders.samples);
+            levels
+        };
+        let takes = |levels: &[Level]| -> f64 {
+            levels.iter().map(|level| level.wanted as f64 * level.renders.samples as f64 * per_sample).sum()
+        };
+        let mut longest = (seconds / RENDERS.0 as f64).min(RENDER_TIME.1) / per_sample;
+        while longest > 1.0 && takes(&plan(longest)) > seconds {
+            longest *= 0.95;
+        }
+        self.levels = plan(longest.max(1.0));
+        Ok(())
+    }
+
+    /// One turn of one length.
+    pub(super) fn render(&mut self, process: &mut HostProcess, level: usize, round: usize) -> Result<()> {
+        let Some(Level { wanted, renders, .. }) = self.levels.get(level) else { return Ok(()) };
+        let (samples, first) = (renders.samples, renders.images.len());
+        let until = wanted * (round + 1) / ROUNDS;
+        let seeds: Vec<u64> = (first..until)
+            .map(|index| batch_seed(batch_seed(self.seed, level as u64), index as u64))
+            .collect();
+        if seeds.is_empty() {
+            return Ok(());
+        }
+        if let Some((images, seconds)) = self.job(process, samples, &seeds)? {
+            self.levels[level].renders.images.extend(images);
+            self.levels[level].times.push(seconds / seeds.len() as f64);
+        }
+        Ok(())
+    }
+
+    /// Renderings and the processor time of all of them; `None` once the program has failed.
+    fn job(&mut self, process: &mut HostProcess, samples: u64, seeds: &[u64]) -> Result<Option<Rendered>> {
+        if self.fault.is_some() {
+            return Ok(None);
+        }
+        let job = RenderJob {
+            scene: 0,
+            settings: self.settings,
+            width: SIZE.0,
+            height: SIZE.1,
+            seeds: seeds.to_vec(),
+            first_sample: 0,
+            samples,
+            switches: Switches::default(),
+        };
+        match process.render(&job)? {
+            Ok(rendered) => {
+                self.non_finite += rendered.non_finite;
+                let pixels =
+                    |batch: Vec<[f32; 3]>| batch.into_iter().map(|pixel| pixel.map(f64::from)).collect();
+                let images = rendered.batches.into_iter().map(pixels).collect();
+                // A clock too coarse to see anything must not make time stand still.
+                Ok(Some((images, rendered.cpu_seconds.max(1e-9))))
+            }
+            Err(fault) => {
+                self.fault = Some(fault);
+                Ok(None)
+            }
+        }
+    }
+
+    /// What was rendered, from the shortest to the longest.
+    pub(super) fn finish(&mut self) -> Vec<Renders> {
+        let levels = std::mem::take(&mut self.levels).into_iter();
+        let renders = levels.map(|mut level| {
+            // The median over the jobs: one that something else got in the way of does not count.
+            level.times.sort_unstable_by(f64::total_cmp);
+            level.renders.seconds = level.times.get(level.times.len() / 2).copied().unwrap_or(0.0);
+            level.renders
+        });
+        renders.collect()
+    }
+}
+
+type Rendered = (Vec<Vec<[f64; 3]>>, f64);

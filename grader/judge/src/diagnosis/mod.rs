@@ -1,0 +1,196 @@
+//! Why is it wrong? Likely causes of what the checks of a report have found, in words for students.
+//!
+//! A report is turned into [`Vector`], what each check saw as numbers (`observation`). The wrong variants of the
+//! solution have been graded, and their vectors are the *signatures* of the mistakes that are known
+//! (`signatures`, `cargo lab signatures`). The causes of a report are those whose signatures are nearest
+//! (`distance`, `rank`), unless even the nearest is too far: then the cause is unknown, and the report says so. What
+//! can be seen without any comparison is told first (`direct`): a file that does not compile or panics, tasks that nobody
+//! has begun. The words stand in the assignment's `causes.yml`, and `evidence` adds what was observed.
+//!
+//! Whatever is compared, only checks count that both sides have: a grade may leave checks out, or stop early.
+
+mod confusion;
+mod direct;
+mod distance;
+mod evidence;
+mod observation;
+mod rank;
+mod signatures;
+
+pub use confusion::{Case, Confusion};
+pub use observation::{Number, Seen, State, Vector};
+pub use signatures::Signatures;
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+use verdict::error::{Error, Result};
+use verdict::report::{CheckResult, Diagnosis, Report};
+
+/// How many causes are named at most.
+pub const MOST: usize = 3;
+
+pub use verdict::report::UNKNOWN;
+
+/// The mistakes that are known in an assignment.
+#[derive(Clone, Debug, Default)]
+pub struct Catalogue {
+    causes: Vec<Cause>,
+    signatures: Signatures,
+}
+
+/// A mistake in words.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cause {
+    /// Its name.
+    pub id: String,
+    /// The wrong variants that show how it looks.
+    pub variants: Vec<String>,
+    /// What it is, in a sentence.
+    pub title: String,
+    /// What to think about.
+    pub hint: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    causes: Vec<Cause>,
+}
+
+impl Catalogue {
+    /// Reads an assignment's causes and signatures. An assignment need not have them: then only what is seen directly is
+    /// diagnosed.
+    ///
+    /// # Errors
+    /// If one of the files is not as it should be, or signatures are missing for a variant that a cause names.
+    pub fn load(assignment: &Path) -> Result<Self> {
+        let (words, measured) = (Self::words_file(assignment), Self::signatures_file(assignment));
+        let catalogue = Self {
+            causes: if words.is_file() { arty::yaml::read::<File>(&words)?.0.causes } else { Vec::new() },
+            signatures: if measured.is_file() { Signatures::load(&measured)? } else { Signatures::default() },
+        };
+        for cause in &catalogue.causes {
+            for variant in &cause.variants {
+                if !catalogue.signatures.is_empty() && catalogue.signatures.get(variant).is_none() {
+                    let message = format!(
+                        "{}: nothing was measured of the variant {variant}; run `cargo lab signatures`",
+                        cause.id
+                    );
+                    return Err(Error::file(&words, message));
+                }
+            }
+        }
+        Ok(catalogue)
+    }
+
+    /// The file with the words.
+    pub fn words_file(assignment: &Path) -> PathBuf {
+        assignment.join("causes.yml")
+    }
+
+    /// The file with what was measured.
+    pub fn signatures_file(assignment: &Path) -> PathBuf {
+        assignment.join("signatures.json")
+    }
+
+    /// The same words with other signatures.
+    pub fn with(&self, signatures: Signatures) -> Self {
+        Self { causes: self.causes.clone(), signatures }
+    }
+
+    /// All mistakes, in the order of the file.
+    pub fn causes(&self) -> &[Cause] {
+        &self.causes
+    }
+
+    /// The cause that a variant shows.
+    pub fn cause_of(&self, variant: &str) -> Option<&Cause> {
+        self.causes.iter().find(|cause| cause.variants.iter().any(|other| other == variant))
+    }
+
+    /// At most [`MOST`] likely causes, the likeliest first. None for a hand-in whose checks all pass.
+    pub fn diagnose(&self, report: &Report, source: &str) -> Vec<Diagnosis> {
+        let wrong = report.checks.iter().any(CheckResult::is_lacking);
+        if !wrong && report.submission.build_failure.is_none() {
+            return Vec::new();
+        }
+        let mut found = direct::causes(report, source);
+        let explained = |technique: &str| found.iter().any(|direct| direct.explains(technique));
+        let vector = Vector::of(report).without(explained);
+        if found.iter().all(|direct| !direct.is_everything()) {
+            found.extend(self.compared(report, &vector));
+        }
+        if found.is_empty() {
+            found.extend(direct::constant_factor(report));
+        }
+        if found.is_empty() {
+            return vec![unknown(rank::something_fits(self, &vector))];
+        }
+        found.truncate(MOST);
+        found.into_iter().map(|found| found.diagnosis).collect()
+    }
+
+    fn compared(&self, report: &Report, vector: &Vector) -> Vec<Found> {
+        let ranking = rank::rank(self, vector);
+        ranking
+            .iter()
+            .map(|candidate| {
+                let diagnosis = Diagnosis {
+                    mistake: candidate.cause.id.clone(),
+                    title: candidate.cause.title.clone(),
+                    confidence: candidate.confidence,
+                    evidence: evidence::sentence(self, report, vector, candidate),
+                    hint: candidate.cause.hint.clone(),
+                };
+                Found { diagnosis, explains: None }
+            })
+            .collect()
+    }
+
+    /// The names of the causes that a vector of observations is diagnosed with, as [`Self::diagnose`] would.
+    pub fn names(&self, vector: &Vector) -> Vec<&str> {
+        if vector.is_right() {
+            return Vec::new();
+        }
+        let names: Vec<&str> =
+            rank::rank(self, vector).iter().map(|candidate| candidate.cause.id.as_str()).take(MOST).collect();
+        if names.is_empty() { vec![UNKNOWN] } else { names }
+    }
+}
+
+/// A cause, and what of the hand-in needs no other.
+struct Found {
+    diagnosis: Diagnosis,
+    /// The techniques whose failures it explains; none if it says nothing of that.
+    explains: Option<Vec<&'static str>>,
+}
+
+impl Found {
+    fn explains(&self, technique: &str) -> bool {
+        self.explains.as_ref().is_some_and(|all| all.contains(&technique))
+    }
+
+    /// True if nothing is left to be explained.
+    fn is_everything(&self) -> bool {
+        ["nee", "mis"].iter().all(|technique| self.explains(technique))
+    }
+}
+
+/// What is said where nothing fits, or too much.
+fn unknown(something_fits: bool) -> Diagnosis {
+    let title = if something_fits {
+        "What was looked at fits several of the mistakes that are known: the cause is unknown. More checks may tell."
+    } else {
+        "What the checks have found fits none of the mistakes that are known: the cause is unknown."
+    };
+    Diagnosis {
+        mistake: UNKNOWN.to_owned(),
+        title: title.to_owned(),
+        confidence: 0.0,
+        evidence: String::new(),
+        hint: String::new(),
+    }
+}

@@ -1,0 +1,214 @@
+//! The mean of one picture, with its error and with what is no radiance in it.
+
+use arty::integrator::{Settings, Technique};
+use arty::sampler::batch_seed;
+use host::protocol::{AnomalousSample, RenderJob, Switches};
+
+use super::answers::{Answer, Extreme};
+use harness::host_process::{Fault, HostProcess};
+use verdict::error::Result;
+
+/// Independent renderings.
+const BATCHES: u64 = 32;
+
+/// Standard errors that are noise. With 31 degrees of freedom one mean is beyond them once in 50 million times.
+pub const NOISE: f64 = 7.0;
+
+/// How many paths there are in one measurement, at least.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort(pub u64);
+
+/// What was measured of one picture.
+#[derive(Clone, Debug, Default)]
+pub struct Measured {
+    /// The mean over all pixels and channels.
+    pub mean: f64,
+    /// Its standard error.
+    pub standard_error: f64,
+    /// Samples that were NaN or infinite; they are black in the mean.
+    pub non_finite: u64,
+    /// Samples that were negative.
+    pub negative: u64,
+    /// The first of either kind.
+    pub first: Option<AnomalousSample>,
+    /// Paths traced.
+    pub paths: u64,
+    /// Processor time for all of them, in seconds.
+    pub seconds: f64,
+}
+
+impl Measured {
+    /// The difference from the true value, relative to it; absolute where that is 0.
+    pub fn error(&self, truth: f64) -> f64 {
+        relative(self.mean - truth, truth)
+    }
+
+    /// The error that noise alone would explain, relative to the true value.
+    pub fn noise(&self, truth: f64) -> f64 {
+        relative(NOISE * self.standard_error, truth)
+    }
+
+    /// True if no sample was NaN, infinite or negative.
+    pub fn is_clean(&self) -> bool {
+        self.non_finite + self.negative == 0
+    }
+}
+
+fn relative(value: f64, truth: f64) -> f64 {
+    if truth == 0.0 { value } else { value / truth.abs() }
+}
+
+/// Renders a scene that the process has loaded.
+///
+/// # Errors
+/// What is not the program's doing.
+pub fn measure(
+    process: &mut HostProcess,
+    scene: u32,
+    settings: Settings,
+    [width, height]: [u32; 2],
+    Effort(paths): Effort,
+    seed: u64,
+) -> Result<std::result::Result<Measured, Fault>> {
+    let pixels = u64::from(width) * u64::from(height);
+    let samples = paths.div_ceil(pixels * BATCHES);
+    let seeds = (0..BATCHES).map(|batch| batch_seed(seed, batch)).collect();
+    let switches = Switches::default();
+    let job = RenderJob { scene, settings, width, height, seeds, first_sample: 0, samples, switches };
+    let rendered = match process.render(&job)? {
+        Ok(rendered) => rendered,
+        Err(fault) => return Ok(Err(fault)),
+    };
+    let mean_of = |batch: &Vec<[f32; 3]>| {
+        batch.iter().flatten().map(|&value| f64::from(value)).sum::<f64>() / (3 * batch.len()) as f64
+    };
+    let means: Vec<f64> = rendered.batches.iter().map(mean_of).collect();
+    let (mean, standard_error) = mean_and_error(&means);
+    Ok(Ok(Measured {
+        mean,
+        standard_error,
+        non_finite: rendered.non_finite,
+        negative: rendered.negative,
+        first: rendered.first_anomalies.into_iter().next(),
+        paths: pixels * samples * BATCHES,
+        seconds: rendered.cpu_seconds,
+    }))
+}
+
+/// Mean and standard error of some numbers.
+///
+/// Numbers are divided by the largest first, so that squares of 1e30 and of 1e-30 stay what they are.
+pub fn mean_and_error(values: &[f64]) -> (f64, f64) {
+    let scale = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    if scale == 0.0 || values.is_empty() {
+        return (0.0, 0.0);
+    }
+    let count = values.len() as f64;
+    let mean = values.iter().map(|value| value / scale).sum::<f64>() / count;
+    let squares: f64 = values.iter().map(|value| (value / scale - mean).powi(2)).sum();
+    (scale * mean, scale * (squares / (count - 1.0).max(1.0) / count).sqrt())
+}
+
+/// A scene of the table as a program shows it.
+#[derive(Clone, Debug)]
+pub struct Finding {
+    /// The scene.
+    pub scene: String,
+    /// How it was rendered.
+    pub settings: Settings,
+    /// Width and height of the picture.
+    pub size: [u32; 2],
+    /// What it should show.
+    pub truth: f64,
+    /// What it shows.
+    pub measured: Measured,
+    /// The relative error that rounding and noise explain.
+    pub allowed: f64,
+    /// True if points depend on it.
+    pub judged: bool,
+}
+
+impl Finding {
+    /// True if the picture is right within the tolerance and what noise explains, and all samples are radiance.
+    pub fn is_right(&self) -> bool {
+        self.measured.is_clean() && self.measured.error(self.truth).abs() <= self.allowed
+    }
+}
+
+/// Renders the scenes of the table with a technique; those are left out that the technique cannot show.
+///
+/// # Errors
+/// What is not the program's doing.
+pub fn findings(
+    process: &mut HostProcess,
+    extremes: &[Extreme],
+    technique: Technique,
+    effort: Effort,
+    seed: u64,
+    mut wanted: impl FnMut(&Answer) -> bool,
+) -> Result<std::result::Result<Vec<Finding>, Fault>> {
+    let mut findings: Vec<Finding> = Vec::new();
+    for Extreme { answer, description } in extremes {
+        if answer.left_out.contains_key(&technique) || !wanted(answer) {
+            continue;
+        }
+        let settings = Settings { technique, max_bounces: answer.max_bounces };
+        let scene = match process.load(description)? {
+            Ok(scene) => scene,
+            Err(fault) => return Ok(Err(fault)),
+        };
+        let measured = match measure(process, scene, settings, answer.size, effort, seed)? {
+            Ok(measured) => measured,
+            Err(fault) => return Ok(Err(fault)),
+        };
+        let compared = |name: &String| findings.iter().find(|finding| finding.scene == *name);
+        let other = answer.same_as.as_ref().and_then(compared).map(|finding| finding.measured.mean);
+        let truth = answer.radiance.or(other).unwrap_or(measured.mean);
+        // The same scene elsewhere takes the same random numbers, so that noise explains nothing.
+        let noise = if answer.radiance.is_some() { measured.noise(truth) } else { 0.0 };
+        findings.push(Finding {
+            scene: answer.scene.clone(),
+            settings,
+            size: answer.size,
+            truth,
+            measured,
+            allowed: answer.tolerance + noise,
+            judged: answer.judged,
+        });
+    }
+    Ok(Ok(findings))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn means_of_any_magnitude_have_an_error() {
+        for scale in [1e-300, 1e-30, 1.0, 1e30, 1e300] {
+            let (mean, error) = mean_and_error(&[scale, 3.0 * scale]);
+            assert!((mean / scale - 2.0).abs() < 1e-12 && (error / scale - 1.0).abs() < 1e-12, "{scale}");
+        }
+        assert_eq!(mean_and_error(&[]), (0.0, 0.0));
+        assert_eq!(mean_and_error(&[0.0; 4]), (0.0, 0.0));
+        assert_eq!(mean_and_error(&[5.0]), (5.0, 0.0));
+    }
+
+    #[test]
+    fn a_wrong_mean_and_a_sample_that_is_no_radiance_are_not_right() {
+        let finding = |mean, allowed, negative| Finding {
+            scene: String::new(),
+            settings: Settings { technique: Technique::Nee, max_bounces: 1 },
+            size: [1, 1],
+            truth: 1e-20,
+            measured: Measured { mean, negative, ..Measured::default() },
+            allowed,
+            judged: true,
+        };
+        assert!(finding(1.0005e-20, 1e-3, 0).is_right());
+        assert!(!finding(1.01e-20, 1e-3, 0).is_right());
+        assert!(!finding(0.0, 1e-3, 0).is_right());
+        assert!(!finding(f64::NAN, 1e-3, 0).is_right());
+        assert!(!finding(1e-20, 1e-3, 1).is_right());
+    }
+}

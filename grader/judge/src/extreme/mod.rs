@@ -1,0 +1,5 @@
+//! Scenes at the ends of what numbers can be, and what a program makes of them.
+
+pub mod answers;
+pub mod build;
+pub mod measure;

@@ -1,0 +1,58 @@
+//! What a grade rests on beside the framework: scenes, references, the rubric.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use arty::scene::Scene;
+
+use super::select::Selected;
+use crate::checks::JudgedScene;
+use crate::reference;
+use harness::workspace::Workspace;
+use verdict::edition::is_hidden_name;
+use verdict::error::{Error, Result};
+
+/// The scenes that checks need, with their references; where there is no solution, without those that only staff have.
+pub(super) fn load_scenes(
+    workspace: &Workspace,
+    selected: &Selected<'_>,
+) -> Result<BTreeMap<String, JudgedScene>> {
+    let mut scenes = BTreeMap::new();
+    let is_staff = workspace.solution_file().is_file();
+    let is_elsewhere =
+        |scene: &str| !is_staff && is_hidden_name(scene) && !workspace.scene_file(scene).exists();
+    for (_, spec) in selected.iter().filter(|(_, spec)| spec.check.needs_scene()) {
+        if !(scenes.contains_key(&spec.scene) || is_elsewhere(&spec.scene)) {
+            scenes.insert(spec.scene.clone(), load_scene(workspace, &spec.scene)?);
+        }
+    }
+    Ok(scenes)
+}
+
+/// Loads a scene of the collection with its reference.
+pub fn load_scene(workspace: &Workspace, name: &str) -> Result<JudgedScene> {
+    let description = arty::scene::file::load(&workspace.scene_file(name))?.description;
+    let reference = reference::load(&workspace.reference_file(name), name, &description)?;
+    Ok(JudgedScene { scene: Scene::new(&description), description, reference })
+}
+
+/// BLAKE3 of a text file.
+pub(super) fn hash_of_file(path: &Path) -> Result<String> {
+    let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
+    // Line by line, so that another system's line ends make no difference.
+    let mut hasher = blake3::Hasher::new();
+    text.lines().for_each(|line| {
+        hasher.update(line.as_bytes()).update(b"\n");
+    });
+    Ok(hasher.finalize().to_hex().to_string())
+}
+
+/// BLAKE3 of all that is known of the scenes.
+pub(super) fn hash_of_references(scenes: &BTreeMap<String, JudgedScene>) -> String {
+    let mut hasher = blake3::Hasher::new();
+    for (name, judged) in scenes {
+        hasher.update(name.as_bytes());
+        hasher.update(format!("{:?}", judged.reference).as_bytes());
+    }
+    hasher.finalize().to_hex().to_string()
+}

@@ -1,0 +1,153 @@
+//! Running the checks of a grade, several side by side.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use super::points::lost_to;
+use super::select::Selected;
+use crate::checks::Bench;
+use verdict::error::{Error, Result};
+use verdict::report::{CheckResult, Reason, Verdict};
+
+/// Checks at a time. Each one's process has all the threads of the grade, so that the last to end leaves no core idle;
+/// more at a time would only wait for each other.
+const MOST_AT_A_TIME: usize = 4;
+
+/// Runs checks, and gives their results in the order in which they were named. `on_check` is told of each as it ends.
+///
+/// Evidence comes first. A task that has lost all of its points by that is only glanced at from then on: there is
+/// nothing to be won any more, and what is wrong mostly shows at once. Checks that go further than known scenes are
+/// left out there. Which tasks those are depends on verdicts alone, not on how many checks run at a time.
+///
+/// # Errors
+/// What is not the hand-in's doing.
+pub(super) fn run(
+    bench: &Bench<'_>,
+    selected: &Selected<'_>,
+    on_check: impl FnMut(&CheckResult) + Send,
+) -> Result<Vec<CheckResult>> {
+    let on_check = Mutex::new(on_check);
+    let (patience, glancing) = (Patience::default(), bench.at_a_glance());
+    let run_one = |(number, (task, spec)), evidence: &[CheckResult]| {
+        let result = match lost_to(task, evidence) {
+            _ if patience.is_over() => bench.give_up(task, spec),
+            None => bench.run(task, spec)?,
+            Some(cause) if spec.check.goes_further() => bench.leave_out(task, spec, &cause),
+            Some(cause) => glanced_at(glancing.run(task, spec)?, &cause),
+        };
+        patience.hear_of(&result);
+        on_check.lock().unwrap_or_else(PoisonError::into_inner)(&result);
+        Ok((number, result))
+    };
+    let numbered = selected.iter().copied().enumerate();
+    let (first, others): (Vec<_>, Vec<_>) = numbered.partition(|(_, (_, spec))| spec.evidence);
+    let mut results = side_by_side(bench.threads, &first, |&check| run_one(check, &[]))?;
+    let evidence: Vec<CheckResult> = results.iter().map(|(_, result)| result.clone()).collect();
+    results.extend(side_by_side(bench.threads, &others, |&check| run_one(check, &evidence))?);
+    results.sort_by_key(|(number, _)| *number);
+    Ok(results.into_iter().map(|(_, result)| result).collect())
+}
+
+/// Says of a check that stays without a verdict why nobody looked any longer.
+fn glanced_at(mut result: CheckResult, cause: &str) -> CheckResult {
+    if result.verdict == Verdict::Inconclusive {
+        result.explanation += &format!("; not looked at for longer, since the points are lost to {cause}");
+    }
+    result
+}
+
+/// Does things one after the other on each of several threads, and stops early at an error.
+fn side_by_side<T: Sync, R: Send>(
+    threads: usize,
+    things: &[T],
+    one: impl Fn(&T) -> Result<R> + Sync,
+) -> Result<Vec<R>> {
+    let next = AtomicUsize::new(0);
+    let (results, error): (Mutex<Vec<R>>, Mutex<Option<Error>>) = Default::default();
+    let work = || {
+        while let Some(thing) = things.get(next.fetch_add(1, Ordering::Relaxed)) {
+            match one(thing) {
+                Ok(result) => results.lock().unwrap_or_else(PoisonError::into_inner).push(result),
+                Err(first) => {
+                    error.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(first);
+                    next.store(things.len(), Ordering::Relaxed);
+                }
+            }
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..threads.clamp(1, MOST_AT_A_TIME).min(things.len()) {
+            scope.spawn(work);
+        }
+    });
+    match error.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        None => Ok(results.into_inner().unwrap_or_else(PoisonError::into_inner)),
+        Some(error) => Err(error),
+    }
+}
+
+/// How long a hand-in is waited for: one scene may be too much for it although it is right in others, but nobody waits
+/// for one that never ends.
+#[derive(Default)]
+struct Patience {
+    late: AtomicUsize,
+    late_in_a_row: AtomicUsize,
+}
+
+impl Patience {
+    fn hear_of(&self, check: &CheckResult) {
+        if check.reason == Reason::Timeout {
+            self.late.fetch_add(1, Ordering::Relaxed);
+            self.late_in_a_row.fetch_add(1, Ordering::Relaxed);
+        } else {
+            self.late_in_a_row.store(0, Ordering::Relaxed);
+        }
+    }
+
+    /// True if no more checks are worth their time.
+    fn is_over(&self) -> bool {
+        self.late_in_a_row.load(Ordering::Relaxed) >= 2 || self.late.load(Ordering::Relaxed) >= 4
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use verdict::sample;
+
+    #[test]
+    fn all_is_done_once_and_an_error_ends_it() {
+        let things: Vec<usize> = (0..100).collect();
+        let mut done = side_by_side(3, &things, |&thing| Ok(2 * thing)).expect("nothing fails");
+        done.sort_unstable();
+        assert_eq!(done, (0..100).map(|thing| 2 * thing).collect::<Vec<_>>());
+
+        let begun = AtomicUsize::new(0);
+        let failed = side_by_side(1, &things, |&thing| {
+            begun.fetch_add(1, Ordering::Relaxed);
+            if thing == 7 { Err(Error::Harness("seven".to_owned())) } else { Ok(()) }
+        });
+        assert!(failed.is_err_and(|error| error.to_string().contains("seven")));
+        assert_eq!(begun.into_inner(), 8);
+    }
+
+    #[test]
+    fn nobody_waits_for_a_hand_in_that_never_ends() {
+        let check = |reason| CheckResult { reason, ..sample::report("").checks[0].clone() };
+        let after = |reasons: &[Reason]| {
+            let patience = Patience::default();
+            reasons.iter().for_each(|&reason| patience.hear_of(&check(reason)));
+            patience.is_over()
+        };
+        use Reason::{Bias, Timeout};
+        assert!(!after(&[Timeout, Bias, Timeout, Bias, Timeout]));
+        assert!(after(&[Timeout, Timeout]) && after(&[Timeout, Bias, Timeout, Bias, Timeout, Bias, Timeout]));
+    }
+
+    #[test]
+    fn only_what_has_no_verdict_says_that_it_was_glanced_at() {
+        let check = |verdict| CheckResult { verdict, ..sample::report("text").checks[0].clone() };
+        assert_eq!(glanced_at(check(Verdict::Fail), "why").explanation, "text");
+        assert!(glanced_at(check(Verdict::Inconclusive), "why").explanation.ends_with("lost to why"));
+    }
+}

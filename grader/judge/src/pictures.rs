@@ -1,0 +1,205 @@
+//! Rendering pictures with a hand-in.
+
+use arty::image::exr::ExrFile;
+use arty::integrator::{Settings, Technique};
+use arty::sampler::batch_seed;
+use arty::scene::SceneDescription;
+use host::protocol::{RenderJob, Switches};
+use rayon::prelude::*;
+
+use crate::image_error::hdr_flip;
+use harness::build::HandInProgram;
+use harness::host_process::HostProcess;
+use harness::workspace::Workspace;
+use verdict::error::Result;
+use verdict::pictures::{Picture, THUMBNAIL_SCENE, half_bits};
+use verdict::report::{Reason, Report, Verdict};
+use verdict::rubric::CheckKind;
+
+/// The most scenes of a page: a scene takes 0.8 of 3 megabytes.
+pub const MOST: usize = 3;
+
+/// What is shown where nothing is wrong. The first one is always there, so that a class can be looked at as one wall.
+const TELLING: [&str; MOST] = [THUMBNAIL_SCENE, "veach_mis", "cornell_box_glossy"];
+
+/// Independent renderings, and samples of each pixel in each.
+const BATCHES: u64 = 8;
+const SAMPLES: u64 = 2;
+
+/// By how much the stored references are rounded, as a share of their value: where nothing varies, that is no error.
+const HALF_ROUNDING: f64 = 1.0 / 2048.0;
+
+/// Pixels to each side that a z value takes in.
+const RADIUS: usize = 2;
+
+/// Pictures of one scene that always is the same, of those whose means are wrong, and of a few that tell much. What
+/// cannot be shown is left out, as are all beyond `most`: no picture decides anything. A hand-in that ran out of time is not rendered again.
+///
+/// # Errors
+/// What is not the hand-in's doing.
+pub fn pictures(
+    workspace: &Workspace,
+    hand_in: &HandInProgram,
+    report: &Report,
+    threads: usize,
+    seed: u64,
+    most: usize,
+) -> Result<Vec<Picture>> {
+    let mut list = Vec::new();
+    if report.checks.iter().any(|check| matches!(check.reason, Reason::Timeout | Reason::Crash)) {
+        return Ok(list);
+    }
+    let wrong = report.checks.iter().filter(|check| check.verdict == Verdict::Fail);
+    let wrong = wrong.filter(|check| check.check == CheckKind::MeanBias).map(|check| check.scene.as_str());
+    let mut seen: Vec<&str> = Vec::new();
+    for scene in TELLING.into_iter().take(1).chain(wrong).chain(TELLING) {
+        if list.len() == most {
+            break;
+        }
+        if !seen.contains(&scene) {
+            seen.push(scene);
+            list.extend(picture(workspace, hand_in, scene, threads, seed)?);
+        }
+    }
+    Ok(list)
+}
+
+fn picture(
+    workspace: &Workspace,
+    hand_in: &HandInProgram,
+    scene: &str,
+    threads: usize,
+    seed: u64,
+) -> Result<Option<Picture>> {
+    let description = arty::scene::file::load(&workspace.scene_file(scene))?.description;
+    let Some(Shown { reference, width, height, max_bounces }) = half_size(workspace, scene, &description)
+    else {
+        return Ok(None);
+    };
+    let mut process = HostProcess::start(hand_in, threads)?;
+    let Ok(index) = process.load(&description)? else { return Ok(None) };
+    let mut picture = Picture {
+        scene: scene.to_owned(),
+        max_bounces,
+        width,
+        height,
+        seeds: (0..BATCHES).map(|batch| batch_seed(seed, batch)).collect(),
+        samples: SAMPLES,
+        reference: half_bits(&reference),
+        rendered: Vec::new(),
+    };
+    let mut all = Vec::new();
+    for technique in [Technique::Bsdf, Technique::Nee, Technique::Mis] {
+        let job = RenderJob {
+            scene: index,
+            settings: Settings { technique, max_bounces },
+            width: width as u32,
+            height: height as u32,
+            seeds: picture.seeds.clone(),
+            first_sample: 0,
+            samples: SAMPLES,
+            switches: Switches::default(),
+        };
+        let Ok(rendered) = process.render(&job)? else { break };
+        all.push((technique, rendered.batches));
+    }
+    drop(process);
+    // The hand-in is done; what is left is work of the grader, on one core for each technique.
+    let compared = all.par_iter().map(|(technique, batches)| {
+        let (means, z) = mean_and_z(batches, &reference, width, height);
+        let flip = hdr_flip(&means, &reference, width, height).map(|flip| flip.map).unwrap_or_default();
+        (*technique, means, z, flip)
+    });
+    for (technique, means, z, flip) in compared.collect::<Vec<_>>() {
+        picture.add(technique, (&means, &reference), &z, &flip);
+    }
+    Ok((!picture.rendered.is_empty()).then_some(picture))
+}
+
+/// Means over all batches, and their differences from the reference in standard errors.
+fn mean_and_z(
+    batches: &[Vec<[f32; 3]>],
+    reference: &[[f64; 3]],
+    width: usize,
+    height: usize,
+) -> (Vec<[f64; 3]>, Vec<f64>) {
+    let count = batches.len() as f64;
+    let mean_of = |pixel: usize| -> [f64; 3] {
+        std::array::from_fn(|c| batches.iter().map(|batch| f64::from(batch[pixel][c])).sum::<f64>() / count)
+    };
+    let means: Vec<[f64; 3]> = (0..reference.len()).map(mean_of).collect();
+    let gray = |pixel: &[f32; 3]| pixel.iter().map(|&value| f64::from(value)).sum::<f64>();
+    let variance_of_mean = |pixel: usize| {
+        let mean = means[pixel].iter().sum::<f64>();
+        let squares: f64 = batches.iter().map(|batch| (gray(&batch[pixel]) - mean).powi(2)).sum();
+        let rounding = HALF_ROUNDING * reference[pixel].iter().sum::<f64>();
+        squares / (count - 1.0) / count + rounding * rounding
+    };
+    let variances: Vec<f64> = (0..reference.len()).map(variance_of_mean).collect();
+    let pairs = means.iter().zip(reference);
+    let differences: Vec<f64> = pairs.map(|(x, r)| x.iter().sum::<f64>() - r.iter().sum::<f64>()).collect();
+    let z = z_map(&differences, &variances, width, height);
+    (means, z)
+}
+
+/// A reference for looking at.
+pub(crate) struct Shown {
+    /// Row by row from the top.
+    pub(crate) reference: Vec<[f64; 3]>,
+    pub(crate) width: usize,
+    pub(crate) height: usize,
+    pub(crate) max_bounces: u32,
+}
+
+/// The reference at half its size; `None` if it is not there, shows another scene, or does not say how many bounces it
+/// has.
+pub(crate) fn half_size(workspace: &Workspace, scene: &str, description: &SceneDescription) -> Option<Shown> {
+    let file = ExrFile::read(&workspace.picture_file(scene)).ok()?;
+    let max_bounces = file.metadata.get("arty:max_bounces")?.parse().ok()?;
+    let hash = description.hash();
+    let image = file
+        .layer("")
+        .filter(|_| file.metadata.get("arty:scene_hash").is_some_and(|other| *other == hash))?;
+    let (width, height) = (image.width() / 2, image.height() / 2);
+    let of_four = |x: usize, y: usize| -> [f64; 3] {
+        let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| image[(2 * x + i, 2 * y + j)].to_array());
+        std::array::from_fn(|c| four.iter().map(|pixel| f64::from(pixel[c])).sum::<f64>() / 4.0)
+    };
+    let reference =
+        (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| of_four(x, y)).collect();
+    Some(Shown { reference, width, height, max_bounces })
+}
+
+/// Sums of differences over a small square around each pixel, divided by the root of the sum of their variances: a
+/// single pixel of few samples would say nothing. 0 where nothing varies and nothing differs.
+fn z_map(differences: &[f64], variances: &[f64], width: usize, height: usize) -> Vec<f64> {
+    let around = |list: &[f64], x: usize, y: usize| -> f64 {
+        let rows = y.saturating_sub(RADIUS)..(y + RADIUS + 1).min(height);
+        rows.map(|row| {
+            let columns = x.saturating_sub(RADIUS)..(x + RADIUS + 1).min(width);
+            list[row * width..][columns].iter().sum::<f64>()
+        })
+        .sum()
+    };
+    let z = |x: usize, y: usize| {
+        let (sum, variance) = (around(differences, x, y), around(variances, x, y));
+        // Black surroundings have no variance; a tiny one keeps true differences visible there.
+        if sum == 0.0 { 0.0 } else { (sum / (variance + 1e-12).sqrt()).clamp(-1e4, 1e4) }
+    };
+    (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| z(x, y)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::z_map;
+
+    #[test]
+    fn a_difference_stands_out_around_where_it_is() {
+        let mut differences = vec![0.0; 12 * 10];
+        differences[4 * 12 + 6] = 3.0;
+        let z = z_map(&differences, &vec![1.0; 120], 12, 10);
+        assert!((z[4 * 12 + 6] - 3.0 / 5.0).abs() < 1e-9, "one pixel of 25");
+        assert_eq!((z[4 * 12 + 9], z[0]), (0.0, 0.0));
+        assert!((z[2 * 12 + 4] - 0.6).abs() < 1e-9, "the corner of the square");
+    }
+}

@@ -1,0 +1,183 @@
+//! References as EXR files.
+//!
+//! The main picture is the mean at the largest number of bounces, so that any viewer shows the scene. All else is
+//! in layers: `bounces1.mean`, `bounces1.variance` (of the mean), `bounces1.nee.deviation`, `bounces1.nee.skewness`;
+//! `bounces1.hits-off.mean` and so on for next event estimation alone.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use arty::image::Image;
+use arty::image::exr::{ExrFile, Precision};
+use arty::integrator::Technique;
+use arty::math::Rgb;
+use arty::scene::SceneDescription;
+
+use super::{Light, Moments, Reference, SIZE};
+use verdict::error::{Error, Result};
+use verdict::rubric::{Hits, View};
+
+const SCENE_HASH: &str = "arty:scene_hash";
+const PROVENANCE: &str = "arty:";
+const HITS_OFF: &str = ".hits-off";
+
+/// Writes a reference.
+pub fn save(reference: &Reference, path: &Path) -> Result<()> {
+    let Some(most) = reference.views.values().next_back() else {
+        return Err(Error::Harness(format!("{}: a reference without an image", path.display())));
+    };
+    let mut file = ExrFile::new(&to_image(&most.mean)).with_metadata(SCENE_HASH, &reference.scene_hash);
+    for (key, value) in &reference.provenance {
+        file = file.with_metadata(format!("{PROVENANCE}{key}"), value);
+    }
+    for (view, light) in &reference.views {
+        let name = |rest: &str| format!("{}.{rest}", layer_name(view));
+        file = file.with_layer(&name("mean"), &to_image(&light.mean));
+        file = file.with_layer(&name("variance"), &to_image(&light.variance_of_mean));
+        for (technique, moments) in &light.techniques {
+            file = file.with_layer(&name(&format!("{technique}.deviation")), &to_image(&moments.deviation));
+            file = file.with_layer(&name(&format!("{technique}.skewness")), &to_image(&moments.skewness));
+        }
+    }
+    Ok(file.write(path, Precision::Full)?)
+}
+
+/// Reads the reference of a scene, and refuses one that shows another scene than this.
+pub fn load(path: &Path, scene: &str, description: &SceneDescription) -> Result<Reference> {
+    let renew = format!("make it with `cargo lab reference {scene}`");
+    if !path.is_file() {
+        return Err(Error::file(path, format!("there is no reference for the scene `{scene}`; {renew}")));
+    }
+    let file = ExrFile::read(path)?;
+    let scene_hash = file.metadata.get(SCENE_HASH).cloned().unwrap_or_default();
+    if scene_hash != description.hash() {
+        return Err(Error::file(path, format!("stale: the scene `{scene}` has changed since; {renew}")));
+    }
+    if (file.width, file.height) != (SIZE.0 as usize, SIZE.1 as usize) {
+        let (width, height) = SIZE;
+        return Err(Error::file(path, format!("not of {width} × {height} pixels; {renew}")));
+    }
+    let layer = |name: &str| file.layer(name).map(|image| from_image(&image));
+    let broken = || Error::file(path, format!("a layer is missing or holds no sound numbers; {renew}"));
+    let mut views = BTreeMap::new();
+    for view in file.channels.keys().filter_map(|channel| view_of(channel)) {
+        let name = |rest: &str| format!("{}.{rest}", layer_name(&view));
+        let mut light = Light {
+            mean: layer(&name("mean")).ok_or_else(broken)?,
+            variance_of_mean: layer(&name("variance")).ok_or_else(broken)?,
+            techniques: BTreeMap::new(),
+        };
+        for technique in Technique::ALL.map(Technique::name) {
+            let deviation = layer(&name(&format!("{technique}.deviation")));
+            let skewness = layer(&name(&format!("{technique}.skewness")));
+            if let (Some(deviation), Some(skewness)) = (deviation, skewness) {
+                light.techniques.insert(technique, Moments { deviation, skewness });
+            }
+        }
+        if !is_sound(&light) {
+            return Err(broken());
+        }
+        views.insert(view, light);
+    }
+    let provenance = file
+        .metadata
+        .iter()
+        .filter_map(|(key, value)| Some((key.strip_prefix(PROVENANCE)?.to_owned(), value.clone())))
+        .filter(|(key, _)| key != "scene_hash")
+        .collect();
+    Ok(Reference { scene_hash, views, provenance })
+}
+
+/// `bounces8`, or `bounces8.hits-off`.
+fn layer_name(view: &View) -> String {
+    let hits = if view.hits == Hits::Off { HITS_OFF } else { "" };
+    format!("bounces{}{hits}", view.max_bounces)
+}
+
+/// What `bounces8.mean.R` or `bounces8.hits-off.mean.R` shows.
+fn view_of(channel: &str) -> Option<View> {
+    let name = channel.strip_prefix("bounces")?.strip_suffix(".mean.R")?;
+    let (bounces, hits) = match name.strip_suffix(HITS_OFF) {
+        Some(bounces) => (bounces, Hits::Off),
+        None => (name, Hits::On),
+    };
+    Some(View { max_bounces: bounces.parse().ok()?, hits })
+}
+
+fn is_sound(light: &Light) -> bool {
+    let values = |list: &[[f64; 3]], sound: fn(f64) -> bool| list.iter().flatten().all(|&value| sound(value));
+    let not_negative = |value: f64| value.is_finite() && value >= 0.0;
+    values(&light.mean, not_negative)
+        && values(&light.variance_of_mean, not_negative)
+        && light.techniques.values().all(|moments| {
+            values(&moments.deviation, not_negative) && values(&moments.skewness, f64::is_finite)
+        })
+}
+
+fn to_image(values: &[[f64; 3]]) -> Image {
+    let pixels = values.iter().map(|value| Rgb::from(value.map(|channel| channel as f32))).collect();
+    Image::from_pixels(SIZE.0 as usize, SIZE.1 as usize, pixels)
+}
+
+fn from_image(image: &Image) -> Vec<[f64; 3]> {
+    image.pixels().iter().map(|pixel| pixel.to_array().map(f64::from)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use arty::math::Vec3;
+    use arty::scene::{CameraDescription, Defaults};
+
+    use super::*;
+
+    fn scene(fov: f32) -> SceneDescription {
+        SceneDescription {
+            camera: CameraDescription { eye: Vec3::ZERO, center: Vec3::Z, up: Vec3::Y, fov },
+            meshes: Vec::new(),
+            materials: Vec::new(),
+            textures: Vec::new(),
+            lights: Vec::new(),
+            defaults: Defaults::default(),
+        }
+    }
+
+    fn reference() -> Reference {
+        let pixels = |value: f64| (0..256).map(|i| [value, f64::from(i), 0.5]).collect::<Vec<_>>();
+        let techniques =
+            BTreeMap::from([("nee", Moments { deviation: pixels(2.0), skewness: pixels(-1.0) })]);
+        let light = |value| Light {
+            mean: pixels(value),
+            variance_of_mean: pixels(0.25),
+            techniques: techniques.clone(),
+        };
+        Reference {
+            scene_hash: scene(40.0).hash(),
+            views: BTreeMap::from([
+                (View { max_bounces: 1, hits: Hits::On }, light(1.0)),
+                (View { max_bounces: 8, hits: Hits::Off }, light(4.0)),
+                (View { max_bounces: 8, hits: Hits::On }, light(8.0)),
+            ]),
+            provenance: BTreeMap::from([("seed".to_owned(), "7".to_owned())]),
+        }
+    }
+
+    #[test]
+    fn what_is_saved_is_what_is_loaded() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("box.exr");
+        save(&reference(), &path).expect("it can be saved");
+        assert_eq!(load(&path, "box", &scene(40.0)).expect("it can be loaded"), reference());
+    }
+
+    #[test]
+    fn a_reference_of_another_scene_is_refused_with_the_command_that_renews_it() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("box.exr");
+        let message =
+            |scene: SceneDescription| load(&path, "box", &scene).expect_err("it is refused").to_string();
+        assert!(message(scene(40.0)).contains("cargo lab reference box"), "there is none");
+        save(&reference(), &path).expect("it can be saved");
+        let stale = message(scene(41.0));
+        assert!(stale.contains("stale") && stale.contains("cargo lab reference box"), "{stale}");
+    }
+}

@@ -1,0 +1,213 @@
+//! Rendering references with the solution.
+
+use std::collections::BTreeMap;
+
+use arty::image::Image;
+use arty::integrator::{Settings, Technique};
+use arty::math::Rgb;
+use arty::sampler::batch_seed;
+use arty::scene::SceneDescription;
+use host::protocol::{RenderJob, Switches};
+
+use super::{Light, Moments, Reference, SIZE};
+use crate::statistics::bias::Expected;
+use harness::build::HandInProgram;
+use harness::host_process::HostProcess;
+use verdict::error::{Error, Result};
+use verdict::rubric::{Hits, View};
+
+/// How many samples a reference takes.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// Independent renderings, from whose spread the variance of the mean is worked out.
+    pub batches: u32,
+    /// Samples of each pixel in each of them.
+    pub samples: u64,
+    /// Samples of each pixel for the moments of each technique.
+    pub single_samples: u32,
+}
+
+impl Default for Effort {
+    fn default() -> Self {
+        Self { batches: 64, samples: 2048, single_samples: 8192 }
+    }
+}
+
+/// Which images of a scene are needed, and with which techniques they are compared.
+pub type Wanted = BTreeMap<View, Vec<Technique>>;
+
+/// Renders the reference of one scene with the solution: means by multiple importance sampling, which sees
+/// everything that any technique sees. Where lights that are hit emit nothing, by next event estimation.
+pub fn make(
+    solution: &HandInProgram,
+    description: &SceneDescription,
+    wanted: &Wanted,
+    effort: Effort,
+    seed: u64,
+) -> Result<Reference> {
+    let mut renderer = Renderer::start(solution, description, rayon::current_num_threads())?;
+    let mut views = BTreeMap::new();
+    for (&view, techniques) in wanted {
+        let max_bounces = view.max_bounces;
+        let hits_off = view.hits == Hits::Off;
+        renderer.switches = Switches { hits_off, ..Switches::default() };
+        let technique = if hits_off { Technique::Nee } else { Technique::Mis };
+        let settings = Settings { technique, max_bounces };
+        let batches = renderer.render(SIZE, settings, effort.batches, effort.samples, seed)?;
+        let (mean, variance) = mean_and_variance(&batches);
+        let count = f64::from(effort.batches);
+        let variance_of_mean = variance.into_iter().map(|value| value.map(|value| value / count)).collect();
+        let mut light = Light { mean, variance_of_mean, techniques: BTreeMap::new() };
+        for &technique in techniques {
+            let settings = Settings { technique, max_bounces };
+            // Batches of one sample: each "mean" is a sample.
+            let samples = renderer.render(SIZE, settings, effort.single_samples, 1, seed ^ 1)?;
+            light.techniques.insert(technique.name(), moments(&samples));
+        }
+        views.insert(view, light);
+    }
+    let samples = u64::from(effort.batches) * effort.samples;
+    let provenance = [
+        ("samples per pixel", samples.to_string()),
+        ("batches", effort.batches.to_string()),
+        ("samples per pixel for moments", effort.single_samples.to_string()),
+        ("technique", Technique::Mis.to_string()),
+        ("seed", seed.to_string()),
+    ];
+    let provenance = provenance.into_iter().map(|(key, value)| (key.to_owned(), value)).collect();
+    Ok(Reference { scene_hash: description.hash(), views, provenance })
+}
+
+/// What a correct estimator gives in a scene without a reference: as the solution renders it now, `samples` times.
+pub(super) fn live(
+    solution: &HandInProgram,
+    description: &SceneDescription,
+    settings: Settings,
+    samples: u32,
+    seed: u64,
+    threads: usize,
+) -> Result<Expected> {
+    let mut renderer = Renderer::start(solution, description, threads)?;
+    let samples = renderer.render(SIZE, settings, samples, 1, seed)?;
+    let (mean, variance) = mean_and_variance(&samples);
+    let count = samples.len() as f64;
+    let variance_of_mean = variance.into_iter().map(|value| value.map(|value| value / count)).collect();
+    let techniques = BTreeMap::from([(settings.technique.name(), moments(&samples))]);
+    let light = Light { mean, variance_of_mean, techniques };
+    light
+        .expected(settings.technique)
+        .ok_or_else(|| Error::Harness("the solution's own rendering has no moments".to_owned()))
+}
+
+/// Samples of each pixel that one batch of a picture takes at most.
+const PICTURE_BATCH: u64 = 16;
+
+/// Renders a larger picture of a scene, to be looked at.
+pub fn picture(
+    program: &HandInProgram,
+    description: &SceneDescription,
+    settings: Settings,
+    (width, height): (u32, u32),
+    samples: u64,
+    seed: u64,
+) -> Result<Image> {
+    // In batches, so that no job takes long.
+    let per_batch = (1..=PICTURE_BATCH).rev().find(|&size| samples.is_multiple_of(size)).unwrap_or(1);
+    let batches = u32::try_from(samples / per_batch).unwrap_or(u32::MAX);
+    let mut renderer = Renderer::start(program, description, rayon::current_num_threads())?;
+    let (mean, _) =
+        mean_and_variance(&renderer.render((width, height), settings, batches, per_batch, seed)?);
+    let pixels = mean.iter().map(|pixel| Rgb::from(pixel.map(|channel| channel as f32))).collect();
+    Ok(Image::from_pixels(width as usize, height as usize, pixels))
+}
+
+/// A trusted program with one scene loaded: its faults are the harness's.
+struct Renderer {
+    process: HostProcess,
+    scene: u32,
+    switches: Switches,
+}
+
+impl Renderer {
+    fn start(program: &HandInProgram, description: &SceneDescription, threads: usize) -> Result<Self> {
+        let mut process = HostProcess::start(program, threads)?;
+        let scene =
+            process.load(description)?.map_err(|fault| Error::Harness(format!("the solution: {fault}")))?;
+        Ok(Self { process, scene, switches: Switches::default() })
+    }
+
+    /// In pieces that stay well within the time that a job may take.
+    fn render(
+        &mut self,
+        (width, height): (u32, u32),
+        settings: Settings,
+        batches: u32,
+        samples: u64,
+        seed: u64,
+    ) -> Result<Vec<Vec<[f32; 3]>>> {
+        let seeds: Vec<u64> = (0..u64::from(batches)).map(|batch| batch_seed(seed, batch)).collect();
+        let pixels = u64::from(width) * u64::from(height);
+        let per_job = (1_000_000 / (pixels * samples)).max(1) as usize;
+        let mut means = Vec::with_capacity(batches as usize);
+        for seeds in seeds.chunks(per_job) {
+            let job = RenderJob {
+                scene: self.scene,
+                settings,
+                width,
+                height,
+                seeds: seeds.to_vec(),
+                first_sample: 0,
+                samples,
+                switches: self.switches,
+            };
+            let rendered = self
+                .process
+                .render(&job)?
+                .map_err(|fault| Error::Harness(format!("the solution: {fault}")))?;
+            if rendered.non_finite + rendered.negative > 0 {
+                let what = format!("{:?}", rendered.first_anomalies.first());
+                return Err(Error::Harness(format!(
+                    "the solution gave samples that are no radiance: {what}"
+                )));
+            }
+            means.extend(rendered.batches);
+        }
+        Ok(means)
+    }
+}
+
+/// Mean over the batches and variance between them, of each pixel and channel.
+fn mean_and_variance(batches: &[Vec<[f32; 3]>]) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
+    let count = batches.len() as f64;
+    let per_value = |f: &dyn Fn(usize, usize) -> f64| -> Vec<[f64; 3]> {
+        (0..batches[0].len()).map(|pixel| std::array::from_fn(|channel| f(pixel, channel))).collect()
+    };
+    let moment = |pixel: usize, channel: usize, center: f64, power: i32| -> f64 {
+        batches.iter().map(|batch| (f64::from(batch[pixel][channel]) - center).powi(power)).sum()
+    };
+    let mean = per_value(&|pixel, channel| moment(pixel, channel, 0.0, 1) / count);
+    let variance =
+        per_value(&|pixel, channel| moment(pixel, channel, mean[pixel][channel], 2) / (count - 1.0).max(1.0));
+    (mean, variance)
+}
+
+fn moments(samples: &[Vec<[f32; 3]>]) -> Moments {
+    let (mean, variance) = mean_and_variance(samples);
+    let count = samples.len() as f64;
+    let mut moments = Moments { deviation: vec![[0.0; 3]; mean.len()], skewness: vec![[0.0; 3]; mean.len()] };
+    for pixel in 0..mean.len() {
+        for channel in 0..3 {
+            let (mean, sigma) = (mean[pixel][channel], variance[pixel][channel].sqrt());
+            if mean == 0.0 || sigma == 0.0 {
+                continue;
+            }
+            let cubes: f64 = samples
+                .iter()
+                .map(|sample| ((f64::from(sample[pixel][channel]) - mean) / sigma).powi(3))
+                .sum();
+            moments.deviation[pixel][channel] = sigma / mean;
+            moments.skewness[pixel][channel] = cubes / count;
+        }
+    }
+    moments
+}

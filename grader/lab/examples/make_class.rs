@@ -1,0 +1,81 @@
+//! Makes a class to measure with: hand-ins that are right, wrong, hostile and odd, in a folder for each.
+//!
+//! `cargo run --release -p grader --example make_class -- --out target/class --count 100`, then
+//! `time cargo grader class target/class --out target/class-report`.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Parser;
+use harness::workspace::Workspace;
+use lab::mutants::{Kind, variants};
+use verdict::error::{Error, Result};
+use verdict::rubric::Rubric;
+
+/// Make a class of hand-ins from the committed variants of the solution.
+#[derive(Parser)]
+struct Arguments {
+    /// The folder of the class; it is made
+    #[arg(long)]
+    out: PathBuf,
+    /// How many hand-ins
+    #[arg(long, default_value_t = 100)]
+    count: usize,
+    /// The assignment that the variants are of
+    #[arg(long, default_value = "05-nee-mis")]
+    assignment: String,
+}
+
+fn main() -> ExitCode {
+    make(&Arguments::parse()).map_or_else(
+        |error| {
+            eprintln!("error: {error}");
+            error.exit_code()
+        },
+        |()| ExitCode::SUCCESS,
+    )
+}
+
+fn make(arguments: &Arguments) -> Result<()> {
+    let workspace = Workspace::find()?;
+    let rubric = Rubric::load(&workspace.assignment(&arguments.assignment).join("rubric.yml"))?;
+    let all = variants(&workspace, &rubric)?.list;
+    let of_kind =
+        |kind| all.iter().filter(move |variant| variant.kind == kind).map(|variant| variant.source.clone());
+    let (right, wrong): (Vec<String>, Vec<String>) =
+        (of_kind(Kind::Right).collect(), of_kind(Kind::Wrong).collect());
+    let odd = odd();
+    for index in 0..arguments.count {
+        // Of ten, four are right, four wrong, one is the starting file or does not compile, one is hostile.
+        let turn = index / 10;
+        let source = match index % 10 {
+            0..=3 => right[(4 * turn + index % 10) % right.len()].clone(),
+            4..=7 => wrong[(4 * turn + index % 10) % wrong.len()].clone(),
+            8 if turn % 2 == 0 => std::fs::read_to_string(workspace.student_file())
+                .map_err(|error| Error::file(&workspace.student_file(), error))?,
+            8 => "fn main( {".to_owned(),
+            _ => odd[turn % odd.len()].clone(),
+        };
+        let folder = arguments.out.join(format!("student{index:03}"));
+        std::fs::create_dir_all(&folder).map_err(|error| Error::file(&folder, error))?;
+        let file = folder.join("render_pt.rs");
+        std::fs::write(&file, format!("// {index}\n{source}")).map_err(|error| Error::file(&file, error))?;
+    }
+    println!("{}: {} hand-ins", arguments.out.display(), arguments.count);
+    Ok(())
+}
+
+/// Hand-ins that hang, crash, eat memory or end the process.
+fn odd() -> Vec<String> {
+    ["loop {}", "panic!()", "std::process::exit(0)", "std::process::abort()", "fn f(n: u64) -> u64 { if n == 0 { 0 } else { f(n + 1) + std::hint::black_box(n) } } Rgb::gray(f(1) as f32)"]
+        .iter()
+        .map(|what| {
+            format!(
+                "use arty::prelude::*;\npub struct PathTracer;\n\
+                 impl PathTracer {{ pub fn new(_: Settings) -> Self {{ Self }} }}\n\
+                 impl Integrator for PathTracer {{\n\
+                 fn radiance(&self, _: &Scene, _: Ray, _: &mut Sampler) -> Rgb {{ {what} }}\n}}\n"
+            )
+        })
+        .collect()
+}

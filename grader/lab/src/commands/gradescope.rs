@@ -1,0 +1,26 @@
+//! `cargo lab gradescope`.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use crate::handout;
+use harness::assignment::Assignment;
+use harness::workspace::Workspace;
+use verdict::error::Result;
+
+/// Pack the grader for Gradescope: a zip with setup.sh and run_autograder (for staff: the solution is in it).
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// The archive to write
+    #[arg(long, value_name = "FILE.zip", default_value = "autograder.zip")]
+    out: PathBuf,
+    #[command(flatten)]
+    assignment: Assignment,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
+    let workspace = Workspace::find()?;
+    let bytes = handout::autograder(&workspace, &arguments.assignment.name, &arguments.out)?;
+    println!("{}: {:.1} MB, with the solution: for staff only", arguments.out.display(), bytes as f64 / 1e6);
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,92 @@
+//! `cargo lab mutants`.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use indicatif::ProgressBar;
+
+use crate::mutants::{Ledger, Outcome, Record, Variant, table, variants};
+use harness::assignment::Assignment;
+use harness::sandbox::Limits;
+use harness::workspace::Workspace;
+use judge::grade::Options;
+use verdict::error::{Error, Result};
+
+/// Grade wrong and right variants of the solution, and say which mistakes are caught (for staff).
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// Only these variants: by name, by row of the catalogue, or all that are `right` or `wrong`
+    #[arg(long, value_name = "VARIANT|ROW|KIND")]
+    only: Vec<String>,
+    /// Grade each with the seeds 1 to N
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    seeds: u64,
+    #[command(flatten)]
+    assignment: Assignment,
+    /// Folder of the results; those that are there already are used [default: target/mutants]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Variants that are graded at the same time, each with one thread [default: one for each core]
+    #[arg(long, value_name = "N")]
+    jobs: Option<usize>,
+}
+
+/// Exit status 1 if anything is as nobody expected.
+pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
+    let workspace = Workspace::find()?;
+    let rubric = arguments.assignment.rubric(&workspace)?;
+    let all = variants(&workspace, &rubric)?;
+    let selected: Vec<&Variant> =
+        all.list.iter().filter(|variant| is_selected(variant, &arguments.only)).collect();
+    if selected.is_empty() {
+        return Err(Error::Input("--only: there is no such variant, row or kind".to_owned()));
+    }
+    let folder = arguments.out.clone().unwrap_or_else(|| workspace.root().join("target/mutants"));
+    let mut ledger = Ledger::open(&folder, &workspace, &arguments.assignment.name)?;
+    let threads = arguments.jobs.unwrap_or_else(rayon::current_num_threads).max(1);
+
+    let bar = ProgressBar::new(arguments.seeds * selected.len() as u64);
+    for seed in 1..=arguments.seeds {
+        let assignment = arguments.assignment.name.clone();
+        let options = Options { assignment, seed, threads, only: Vec::new(), limits: Limits::default() };
+        ledger.grade(&workspace, &selected, &options, || false, |_| bar.inc(1))?;
+    }
+    bar.finish_and_clear();
+    let mut unexpected = 0;
+    for variant in &selected {
+        let records = ledger.records(variant);
+        let outcome = Outcome::new(variant, &records);
+        unexpected += usize::from(!outcome.unexpected.is_empty());
+        println!("{}", describe(variant, &records, &outcome));
+    }
+
+    let records: Vec<Vec<&Record>> = all.list.iter().map(|variant| ledger.records(variant)).collect();
+    let text = table(&all, &rubric, &records);
+    // Only a table of everything is worth keeping.
+    let complete = records.iter().all(|records| !records.is_empty());
+    let file = if complete { workspace.kill_matrix() } else { folder.join("kill-matrix.md") };
+    arty::image::write_aside(&file, |writer| std::io::Write::write_all(writer, text.as_bytes()))?;
+    eprintln!("kill matrix: {}", file.display());
+    println!("{unexpected} of {} variants are not as expected", selected.len());
+    Ok(ExitCode::from(u8::from(unexpected > 0)))
+}
+
+fn is_selected(variant: &Variant, only: &[String]) -> bool {
+    only.is_empty()
+        || only
+            .iter()
+            .any(|name| *name == variant.id || name == variant.kind.name() || variant.rows.contains(name))
+}
+
+fn describe(variant: &Variant, records: &[&Record], outcome: &Outcome) -> String {
+    let mut text = format!("{:<45} {:<24}", variant.id, outcome.word(variant.kind));
+    for record in records {
+        let points: Vec<String> =
+            record.tasks.iter().map(|(task, [earned, worth])| format!("{task} {earned}/{worth}")).collect();
+        text += &format!("  [{}: {}, {:.1} s]", record.seed, points.join(" "), record.seconds);
+    }
+    for message in &outcome.unexpected {
+        text += &format!("\n    UNEXPECTED: {message}");
+    }
+    text
+}

@@ -1,0 +1,155 @@
+//! Which files are handed out, and under which names.
+
+use std::path::{Path, PathBuf};
+
+use super::manifests;
+use harness::workspace::Workspace;
+use verdict::error::{Error, Result};
+
+/// Files and folders that are given as they are, but for tests: these are for whoever works on framework and grader, some
+/// need the solution, and some show how a light is asked.
+const GIVEN: [&str; 17] = [
+    ".gitattributes",
+    ".gitignore",
+    "LICENSE-APACHE",
+    "LICENSE-MIT",
+    "rustfmt.toml",
+    "skeleton/src",
+    "grader/src",
+    "grader/classroom/src",
+    "grader/harness/src",
+    "grader/intake/src",
+    "grader/judge/src",
+    "grader/present/src",
+    "grader/verdict/src",
+    "grader/host/src",
+    "grader/host/program",
+    "scenes",
+    "references",
+];
+
+/// What of these stays with the staff, if it is there.
+const KEPT_BACK: [&str; 2] = ["scenes/hidden", "references/hidden"];
+
+/// Sources of the grader that are modules of tests.
+const TEST_FILES: [&str; 2] = ["tests.rs", "test_scenes.rs"];
+
+/// What of an assignment's folder is given; `course.yml` would name those who have longer.
+const OF_ASSIGNMENT: [&str; 3] = ["sheet.md", "rubric.yml", "figures"];
+
+/// What else is given if it is there: how mistakes look, and words for them.
+const IF_THERE: [&str; 2] = ["causes.yml", "signatures.json"];
+
+/// What of an assignment's folder is given elsewhere, if it is there.
+const MOVED: [(&str, &str); 3] = [
+    ("handout.md", "README.md"),
+    ("ci/github.yml", ".github/workflows/grade.yml"),
+    ("ci/gitlab.yml", ".gitlab-ci.yml"),
+];
+
+/// Files of Cargo's that name what is not given.
+type Rewrite = fn(&str) -> std::result::Result<String, String>;
+const REWRITTEN: [(&str, Rewrite); 12] = [
+    ("Cargo.toml", manifests::workspace),
+    ("Cargo.lock", manifests::lock),
+    (".cargo/config.toml", manifests::aliases),
+    ("skeleton/Cargo.toml", manifests::without_benches),
+    ("grader/Cargo.toml", manifests::without_tests),
+    ("grader/classroom/Cargo.toml", manifests::without_tests),
+    ("grader/harness/Cargo.toml", manifests::without_tests),
+    ("grader/host/Cargo.toml", manifests::without_tests),
+    ("grader/intake/Cargo.toml", manifests::without_tests),
+    ("grader/judge/Cargo.toml", manifests::without_tests),
+    ("grader/present/Cargo.toml", manifests::without_tests),
+    ("grader/verdict/Cargo.toml", manifests::without_tests),
+];
+
+/// All files of the handout with their contents, in the order of their paths.
+pub(super) fn given(workspace: &Workspace, assignment: &str) -> Result<Vec<(PathBuf, Vec<u8>)>> {
+    let root = workspace.root();
+    let own = workspace.assignment(assignment);
+    let own = own.strip_prefix(root).unwrap_or(&own).to_owned();
+    let mut files = Vec::new();
+    for name in GIVEN.into_iter().map(PathBuf::from).chain(OF_ASSIGNMENT.map(|name| own.join(name))) {
+        collect(root, &name, &mut files)?;
+    }
+    files.retain(|(path, _)| !KEPT_BACK.iter().any(|kept| path.starts_with(kept)));
+    for name in IF_THERE.map(|name| own.join(name)) {
+        if root.join(&name).is_file() {
+            collect(root, &name, &mut files)?;
+        }
+    }
+    for (from, to) in MOVED {
+        let from = root.join(&own).join(from);
+        if from.is_file() {
+            files.push((PathBuf::from(to), read(&from)?));
+        }
+    }
+    for (name, rewrite) in REWRITTEN {
+        let path = root.join(name);
+        let text = String::from_utf8(read(&path)?).map_err(|error| Error::file(&path, error))?;
+        let text = rewrite(&text).map_err(|message| Error::file(&path, message))?;
+        files.push((PathBuf::from(name), text.into_bytes()));
+    }
+    for (path, bytes) in files.iter_mut().filter(|(path, _)| path.starts_with("grader")) {
+        if path.extension().is_some_and(|extension| extension == "rs") {
+            without_tests(bytes);
+        }
+    }
+    files.sort();
+    Ok(files)
+}
+
+/// Cuts the tests off the end of a source, where they stand.
+fn without_tests(source: &mut Vec<u8>) {
+    const TESTS: &[u8] = b"\n#[cfg(test)]\nmod tests {";
+    if let Some(start) = source.windows(TESTS.len()).position(|part| part == TESTS) {
+        source.truncate(start);
+    }
+}
+
+/// What grading takes: the same with the solution, which some checks compare with, and with what stays with the staff.
+pub(super) fn for_grading(workspace: &Workspace, assignment: &str) -> Result<Vec<(PathBuf, Vec<u8>)>> {
+    let root = workspace.root();
+    let mut files = given(workspace, assignment)?;
+    // Of the files that are rewritten, those that name the solution are taken as they are.
+    let whole = ["Cargo.toml", "Cargo.lock", ".cargo/config.toml"].map(Path::new);
+    files.retain(|(path, _)| !whole.contains(&path.as_path()));
+    for name in
+        whole.into_iter().chain(["solution/Cargo.toml", "solution/src", "solution/benches"].map(Path::new))
+    {
+        collect(root, name, &mut files)?;
+    }
+    for name in KEPT_BACK.map(Path::new) {
+        if root.join(name).is_dir() {
+            collect(root, name, &mut files)?;
+        }
+    }
+    Ok(files)
+}
+
+/// Adds a file, or all files below a folder that are not hidden.
+fn collect(root: &Path, name: &Path, files: &mut Vec<(PathBuf, Vec<u8>)>) -> Result<()> {
+    let path = root.join(name);
+    // Modules that are only compiled for tests.
+    let is_test = name.starts_with("grader") && TEST_FILES.iter().any(|file| name.ends_with(file));
+    if is_test {
+        return Ok(());
+    }
+    if !path.is_dir() {
+        files.push((name.to_owned(), read(&path)?));
+        return Ok(());
+    }
+    for entry in std::fs::read_dir(&path).map_err(|error| Error::file(&path, error))? {
+        let entry = entry.map_err(|error| Error::file(&path, error))?.file_name();
+        let hidden = entry.to_string_lossy().starts_with('.') && entry != ".gitattributes";
+        if !hidden {
+            collect(root, &name.join(entry), files)?;
+        }
+    }
+    Ok(())
+}
+
+fn read(path: &Path) -> Result<Vec<u8>> {
+    std::fs::read(path).map_err(|error| Error::file(path, error))
+}

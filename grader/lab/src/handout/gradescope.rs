@@ -1,0 +1,46 @@
+//! Gradescope's autograder: a zip with `setup.sh`, `run_autograder` and the grader with all that it needs.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, DateTime, ZipWriter};
+
+use super::files;
+use harness::workspace::Workspace;
+use verdict::error::{Error, Result};
+
+const SETUP: &str = include_str!("gradescope/setup.sh");
+const RUN: &str = include_str!("gradescope/run_autograder");
+
+/// Packs the autograder of an assignment. Unlike a handout it has the solution: students do not see it.
+///
+/// # Errors
+/// If a file cannot be read, or the archive not be written.
+pub fn autograder(workspace: &Workspace, assignment: &str, out: &Path) -> Result<usize> {
+    let files = files::for_grading(workspace, assignment)?;
+    let bytes = archive(&files).map_err(|error| Error::Harness(format!("the archive: {error}")))?;
+    arty::image::write_aside(out, |writer| writer.write_all(&bytes))?;
+    Ok(bytes.len())
+}
+
+/// The same archive whenever and wherever it is made. Gradescope unpacks it at `/autograder/source`.
+fn archive(files: &[(PathBuf, Vec<u8>)]) -> zip::result::ZipResult<Vec<u8>> {
+    let mut writer = ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    let options = |mode| {
+        SimpleFileOptions::default()
+            .compression_method(CompressionMethod::Deflated)
+            .last_modified_time(DateTime::DEFAULT)
+            .unix_permissions(mode)
+    };
+    for (name, text) in [("setup.sh", SETUP), ("run_autograder", RUN)] {
+        writer.start_file(name, options(0o755))?;
+        writer.write_all(text.as_bytes())?;
+    }
+    for (path, bytes) in files {
+        let name: Vec<_> = path.iter().map(|part| part.to_string_lossy()).collect();
+        writer.start_file(name.join("/"), options(0o644))?;
+        writer.write_all(bytes)?;
+    }
+    Ok(writer.finish()?.into_inner())
+}

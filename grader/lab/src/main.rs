@@ -1,0 +1,5 @@
+//! The laboratory as a program: `cargo lab`.
+
+fn main() -> std::process::ExitCode {
+    lab::commands::run()
+}

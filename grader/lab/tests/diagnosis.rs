@@ -1,0 +1,167 @@
+//! The causes that are named: for the committed observations of variants, with signatures of other grades. Nothing is
+//! graded here; `cargo lab signatures` makes the files.
+
+use std::collections::BTreeSet;
+
+use harness::sandbox::Limits;
+use harness::workspace::Workspace;
+use judge::diagnosis::{Catalogue, Confusion, Number, Seen, Signatures, State, UNKNOWN, Vector};
+use judge::grade::{Grader, Options};
+use lab::mutants::{Kind, Variant, variants};
+use verdict::rubric::Rubric;
+use verdict::submission::Submission;
+
+fn workspace() -> Workspace {
+    Workspace::find().expect("the tests run inside the checkout")
+}
+
+fn rubric() -> Rubric {
+    Rubric::load(&workspace().assignment("05-nee-mis").join("rubric.yml")).expect("it is sound")
+}
+
+fn all() -> Vec<Variant> {
+    variants(&workspace(), &rubric()).expect("they are sound").list
+}
+
+fn catalogue() -> Catalogue {
+    Catalogue::load(&workspace().assignment("05-nee-mis")).expect("causes and signatures fit")
+}
+
+/// Observations that are no signatures.
+fn cases() -> Signatures {
+    Signatures::load(&workspace().variants().join("confusion.json")).expect("it is there")
+}
+
+fn confusion(change: impl Fn(&Vector) -> Vector) -> Confusion {
+    let (catalogue, mut confusion) = (catalogue(), Confusion::default());
+    for (variant, seed, vector) in cases().all() {
+        confusion.add(&catalogue, variant, seed, &change(vector));
+    }
+    confusion
+}
+
+#[test]
+fn every_wrong_variant_shows_one_cause_and_no_right_one_does() {
+    let catalogue = catalogue();
+    for variant in all() {
+        let named = catalogue.causes().iter().filter(|cause| cause.variants.contains(&variant.id)).count();
+        assert_eq!(named, usize::from(variant.kind == Kind::Wrong), "{}", variant.id);
+    }
+}
+
+#[test]
+fn signatures_are_never_tested_on_themselves() {
+    let file = Catalogue::signatures_file(&workspace().assignment("05-nee-mis"));
+    let learnt = Signatures::load(&file).expect("it is there");
+    let learnt: BTreeSet<(&str, u64)> = learnt.all().map(|(variant, seed, _)| (variant, seed)).collect();
+    assert!(cases().all().all(|(variant, seed, _)| !learnt.contains(&(variant, seed))));
+}
+
+#[test]
+fn the_right_cause_is_named_first_nine_times_in_ten_and_among_three_nearly_always() {
+    let confusion = confusion(Vector::clone);
+    let [wrong, first, named] = confusion.wrong();
+    assert!(wrong >= 70, "{wrong} cases");
+    assert!(first as f64 >= 0.9 * wrong as f64, "{first} of {wrong}");
+    assert!(named as f64 >= 0.98 * wrong as f64, "{named} of {wrong}");
+    let [right, blamed] = confusion.right();
+    assert!(right >= 12 && blamed == 0, "{blamed} of {right}");
+}
+
+#[test]
+fn a_grade_that_stops_at_the_first_failures_still_names_the_cause_most_often() {
+    let rubric = rubric();
+    let order: Vec<(String, String)> =
+        rubric.checks().map(|(task, spec)| (task.id.clone(), spec.id())).collect();
+    let [wrong, _, named] = confusion(|vector| vector.stopped_after(&order, 2)).wrong();
+    assert!(named as f64 >= 0.9 * wrong as f64, "{named} of {wrong}");
+}
+
+#[test]
+fn observations_that_fit_nothing_are_unknown() {
+    // Every check is wrong, in turns too bright and too dark.
+    let seen = |(index, check): (usize, String)| {
+        let mean = if index % 2 == 0 { 1.3f64 } else { 0.6 };
+        let numbers = [("mean".to_owned(), Number(mean.ln(), 0.01))].into();
+        (check, Seen { state: State::Wrong, numbers })
+    };
+    let checks = rubric().checks().map(|(_, spec)| spec.id()).collect::<Vec<_>>();
+    let vector = Vector(checks.into_iter().enumerate().map(seen).collect());
+    assert_eq!(catalogue().names(&vector), [UNKNOWN]);
+}
+
+#[test]
+fn nothing_is_said_of_a_hand_in_whose_checks_all_pass() {
+    let right = Seen { state: State::Pass, numbers: Default::default() };
+    let vector = Vector(rubric().checks().map(|(_, spec)| (spec.id(), right.clone())).collect());
+    assert!(catalogue().names(&vector).is_empty());
+}
+
+#[test]
+fn the_table_is_that_of_the_committed_observations() {
+    let path = workspace().variants().join("confusion.md");
+    let table = std::fs::read_to_string(&path).expect("it is there").replace("\r\n", "\n");
+    let [wrong, first, named] = confusion(Vector::clone).wrong();
+    for line in [
+        format!("- right cause first: {first} of {wrong} "),
+        format!("- right cause among the first three: {named} of {wrong} "),
+    ] {
+        assert!(table.contains(&line), "make it anew with `cargo lab signatures`: {line}");
+    }
+}
+
+/// Nothing of these programs is the solution's but what they do: their mistakes have to be known all the same.
+#[test]
+fn the_cause_is_named_in_programs_of_another_style() {
+    let options = Options {
+        assignment: "05-nee-mis".into(),
+        seed: 3,
+        threads: 2,
+        only: Vec::new(),
+        limits: Limits::default(),
+    };
+    let grader = Grader::new(&workspace(), &options).expect("the harness works");
+    for (style, from, to, cause) in [
+        (
+            "recursive",
+            "let geometry = hit.cos(wi) * sample.cos / (d * d);",
+            "let geometry = sample.cos / (d * d);",
+            "receiver-cosine-missing",
+        ),
+        (
+            "separate-mis-ray",
+            "let weight = sample.pdf / (sample.pdf + pdf);",
+            "let weight = 1.0 + 0.0 * pdf;",
+            "mis-hit-unweighted",
+        ),
+    ] {
+        let source = all().into_iter().find(|variant| variant.id == style).expect(style).source;
+        assert_eq!(source.matches(from).count(), 1, "{style}");
+        let submission = Submission { path: format!("{style}.rs").into(), source: source.replace(from, to) };
+        let report = grader.grade(&submission, |_| {}).expect("the harness works");
+        let named: Vec<&str> = report.diagnosis.iter().map(|cause| cause.mistake.as_str()).collect();
+        assert_eq!(named.first(), Some(&cause), "{style}: {named:?}");
+        assert!(report.diagnosis.iter().all(|cause| !cause.evidence.is_empty() && !cause.hint.is_empty()));
+    }
+}
+
+/// With `--only`, there is little to compare.
+#[test]
+fn the_starting_file_is_told_where_to_begin() {
+    let workspace = workspace();
+    let source = std::fs::read_to_string(workspace.student_file()).expect("it is there");
+    let submission = Submission { path: "render_pt.rs".into(), source };
+    let options = Options {
+        assignment: "05-nee-mis".into(),
+        seed: 1,
+        threads: 2,
+        only: vec!["light-pick".to_owned()],
+        limits: Limits::default(),
+    };
+    let report = Grader::new(&workspace, &options)
+        .and_then(|grader| grader.grade(&submission, |_| {}))
+        .expect("the harness works");
+    let [only] = &report.diagnosis[..] else { panic!("{:?}", report.diagnosis) };
+    assert_eq!(only.mistake, "not-begun");
+    assert!(only.hint.contains("Begin with 5.1a"), "{}", only.hint);
+}

@@ -1,0 +1,173 @@
+//! The handout, as a student gets it: made anew, built and graded by itself, and searched for the solution.
+//!
+//! Its folder stays in `target/tmp` for what is built there: from nothing this takes minutes, later less than two.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use harness::workspace::Workspace;
+use lab::handout::Secrets;
+use verdict::report::{Report, Verdict};
+
+fn workspace() -> Workspace {
+    Workspace::find().expect("the tests run inside the checkout")
+}
+
+fn solution() -> String {
+    std::fs::read_to_string(workspace().solution_file()).expect("the solution is there")
+}
+
+fn grader(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_lab")).args(arguments).output().expect("the program starts")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// Makes the handout at `folder`; what was built there before stays.
+fn make(folder: &Path) {
+    let built = folder.with_extension("built");
+    if folder.exists() {
+        // A test that was interrupted may have left something.
+        let _ = std::fs::remove_dir_all(&built);
+        let _ = std::fs::rename(folder.join("target"), &built);
+        std::fs::remove_dir_all(folder).expect("the earlier handout can be removed");
+    }
+    let made = grader(&["handout", "--out", &folder.display().to_string()]);
+    assert_eq!(made.status.code(), Some(0), "{}", text(&made.stderr));
+    if built.is_dir() {
+        std::fs::rename(&built, folder.join("target")).expect("it can be moved back");
+    }
+}
+
+fn files_below(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).expect("it can be listed") {
+        let path = entry.expect("it can be read").path();
+        if path.is_dir() {
+            files_below(&path, found);
+        } else {
+            found.push(path);
+        }
+    }
+}
+
+/// Calls Cargo as a student would, with nothing that this test was called with.
+fn cargo(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.args(arguments).current_dir(folder);
+    for (name, _) in std::env::vars_os() {
+        let name = name.to_string_lossy().into_owned();
+        let ours = name.starts_with("CARGO_") && name != "CARGO_HOME" && !name.starts_with("CARGO_NET");
+        if ours || name.starts_with("GITHUB_") {
+            command.env_remove(name);
+        }
+    }
+    command.output().expect("cargo starts")
+}
+
+fn report(folder: &Path) -> Report {
+    Report::load(&folder.join("report/report.json")).expect("there is a report")
+}
+
+#[test]
+fn a_handout_holds_nothing_of_the_solution() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let out = folder.path().join("handout");
+    make(&out);
+    let secrets = Secrets::of(&solution()).expect("the solution has task blocks");
+    assert!(secrets.find(&solution()).is_some(), "the search finds what it is for");
+    let mut files = Vec::new();
+    files_below(&out, &mut files);
+    assert!(files.len() > 400, "{} files", files.len());
+    for file in &files {
+        let bytes = std::fs::read(file).expect("it can be read");
+        assert_eq!(secrets.find(&text(&bytes)), None, "{}", file.display());
+        let name = file.strip_prefix(&out).expect("it is below").display().to_string();
+        for kept in ["solution", ".git/", "hostile", "variants/", "kill-matrix", "calibration.md", "hidden/"]
+        {
+            let of_a_check = name.starts_with("grader/judge/src/checks/hidden_variants/");
+            assert!(!name.contains(kept) || of_a_check, "{name}");
+        }
+    }
+    for there in
+        ["README.md", ".github/workflows/grade.yml", ".gitlab-ci.yml", "assignments/05-nee-mis/sheet.md"]
+    {
+        assert!(out.join(there).is_file(), "{there}");
+    }
+}
+
+#[test]
+fn a_starting_file_with_the_solution_in_it_is_not_handed_out() {
+    let workspace = workspace();
+    let secrets = Secrets::of(&solution()).expect("the solution has task blocks");
+    let starter = std::fs::read_to_string(workspace.student_file()).expect("it is there");
+    assert_eq!(secrets.find(&starter), None);
+    let block = "radiance += throughput * self.direct_light(scene, &hit, &bsdf, sampler);";
+    let spoilt = starter.replacen("// END 5.1a", &format!("{block}\n// END 5.1a"), 1);
+    assert_ne!(spoilt, starter);
+    assert!(secrets.find(&spoilt).is_some(), "one line is enough");
+}
+
+#[test]
+fn a_handout_is_written_to_a_new_folder_only() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let out = folder.path().display().to_string();
+    std::fs::write(folder.path().join("mine"), "x").expect("it can be written");
+    let refused = grader(&["handout", "--out", &out]);
+    assert_eq!(refused.status.code(), Some(2), "{}", text(&refused.stderr));
+    assert_eq!(std::fs::read_dir(folder.path()).expect("it is there").count(), 1, "nothing else was written");
+}
+
+/// From nothing this builds grader and framework in release mode: minutes.
+#[test]
+fn a_handout_builds_and_grades_by_itself() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("handout");
+    make(&folder);
+
+    let starter = cargo(&folder, &["grade", "--no-report"]);
+    assert_eq!(starter.status.code(), Some(0), "{}", text(&starter.stderr));
+    let graded = report(&folder);
+    assert_eq!(graded.points.earned, 0.0, "{:#?}", graded.tasks);
+
+    let file = workspace().solution_file().display().to_string();
+    let right = cargo(&folder, &["grade", &file, "--no-report"]);
+    assert_eq!(right.status.code(), Some(0), "{}", text(&right.stderr));
+    let graded = report(&folder);
+    let failed: Vec<_> = graded.checks.iter().filter(|check| check.verdict != Verdict::Pass).collect();
+    assert!(failed.is_empty(), "{failed:#?}");
+    // All that can be had here; what the tutors' checks carry is named, and is not much.
+    let points = graded.points;
+    assert_eq!(points.earned + points.elsewhere, points.automatic_max, "{points:?}");
+    assert!(points.elsewhere > 0.0 && points.elsewhere < 0.1 * points.automatic_max, "{points:?}");
+    let why: Vec<&str> = graded
+        .left_out
+        .iter()
+        .filter(|left_out| left_out.check.starts_with("hidden-variants"))
+        .map(|left_out| left_out.why.as_str())
+        .collect();
+    assert_eq!(why, ["there is no solution here to compare with"; 2]);
+    let said = format!("{} rest on checks that only your tutors can run", points.elsewhere);
+    assert!(text(&right.stdout).contains(&said), "{}", text(&right.stdout));
+
+    // A scene that the rubric names and only staff have.
+    let rubric = folder.join("assignments/05-nee-mis/rubric.yml");
+    let known = std::fs::read_to_string(&rubric).expect("it is there");
+    let first = "- { check: mean-bias, scene: three_points,";
+    let cellar = "- { check: mean-bias, scene: hidden/cellar, technique: nee, max_bounces: 1 }";
+    let hidden = known.replacen(first, &format!("{cellar}\n      {first}"), 1);
+    assert_ne!(hidden, known);
+    std::fs::write(&rubric, hidden).expect("it can be written");
+    let right = cargo(&folder, &["grade", &file, "--no-report"]);
+    assert_eq!(right.status.code(), Some(0), "{}", text(&right.stderr));
+    let graded = report(&folder);
+    let cellar = graded.left_out.iter().find(|left_out| left_out.scene == "hidden/cellar");
+    assert_eq!(cellar.map(|left_out| left_out.why.as_str()), Some("its scene is not here"));
+    assert!(graded.points.elsewhere > points.elsewhere, "{:?}", graded.points);
+    assert_eq!(graded.points.earned + graded.points.elsewhere, points.automatic_max, "{:?}", graded.points);
+
+    // No test of the grader is there that would need the solution.
+    let tests = cargo(&folder, &["test", "-p", "grader", "-p", "host"]);
+    assert_eq!(tests.status.code(), Some(0), "{}", text(&tests.stderr));
+    assert!(!text(&tests.stdout).contains("running"), "{}", text(&tests.stdout));
+}

@@ -1,0 +1,70 @@
+//! The measurements as files.
+
+use std::path::Path;
+
+use verdict::convergence::{Convergence, Estimate, Role};
+use verdict::error::Result;
+
+/// Writes all of it as JSON.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn save_json(convergence: &Convergence, path: &Path) -> Result<()> {
+    Ok(arty::image::write_aside(path, |writer| serde_json::to_writer_pretty(writer, convergence))?)
+}
+
+/// The columns before the estimates.
+const COLUMNS: [&str; 8] =
+    ["scene", "technique", "program", "role", "max_bounces", "samples_per_pixel", "renders", "cpu_seconds"];
+
+/// The estimates, each with the ends of its 95 % interval.
+const ESTIMATES: [&str; 5] = ["relative_mse", "trimmed_relative_mse", "mse", "bias_squared", "variance"];
+
+/// Writes one line for each point of each curve, as CSV with a header.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn save_csv(convergence: &Convergence, path: &Path) -> Result<()> {
+    Ok(arty::image::write_aside(path, |writer| write(convergence, writer))?)
+}
+
+fn write(convergence: &Convergence, writer: impl std::io::Write) -> csv::Result<()> {
+    let mut writer = csv::Writer::from_writer(writer);
+    let estimates =
+        ESTIMATES.iter().flat_map(|name| [(*name).to_owned(), format!("{name}_low"), format!("{name}_high")]);
+    writer.write_record(COLUMNS.map(str::to_owned).into_iter().chain(estimates))?;
+    for panel in &convergence.panels {
+        for curve in &panel.curves {
+            for point in &curve.points {
+                let role = match curve.role {
+                    Role::Submission => "submission",
+                    Role::Solution => "solution",
+                    Role::Baseline => "baseline",
+                };
+                let first = [
+                    panel.scene.clone(),
+                    curve.technique.to_string(),
+                    curve.name.clone(),
+                    role.to_owned(),
+                    panel.max_bounces.to_string(),
+                    point.samples.to_string(),
+                    point.renders.to_string(),
+                    point.seconds.to_string(),
+                ];
+                let estimates = [
+                    point.relative_mse,
+                    point.trimmed_relative_mse,
+                    point.mse,
+                    point.bias_squared,
+                    point.variance,
+                ];
+                let numbers = estimates.iter().flat_map(|Estimate { value, interval: [low, high] }| {
+                    [value, low, high].map(f64::to_string)
+                });
+                writer.write_record(first.into_iter().chain(numbers))?;
+            }
+        }
+    }
+    writer.flush()?;
+    Ok(())
+}

@@ -1,0 +1,161 @@
+//! The measurements on a terminal.
+
+use std::io::{self, Write};
+
+use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
+use comfy_table::{Cell, CellAlignment, ContentArrangement, Table};
+
+use verdict::convergence::{Convergence, Curve, Estimate, Panel, Role};
+
+/// Prints one table for each scene and technique.
+pub fn print_table(convergence: &Convergence) {
+    // Nobody may be reading any more (`… | head`).
+    let _ = write(&mut io::stdout().lock(), convergence);
+}
+
+fn write(out: &mut impl Write, convergence: &Convergence) -> io::Result<()> {
+    for panel in &convergence.panels {
+        writeln!(out, "\n{}, {}, {} bounces", panel.scene, panel.technique, panel.max_bounces)?;
+        writeln!(out, "{}", table(panel))?;
+    }
+    let threads =
+        if convergence.threads == 1 { "1 thread".into() } else { format!("{} threads", convergence.threads) };
+    writeln!(
+        out,
+        "Seconds are processor time, {threads} each. In brackets: 95 % intervals, bootstrapped over renderings."
+    )?;
+    for left_out in &convergence.left_out {
+        let place = if left_out.scene.is_empty() { String::new() } else { format!(" in {}", left_out.scene) };
+        writeln!(out, "left out: {}{place}: {}", left_out.check, left_out.why)?;
+    }
+    Ok(())
+}
+
+/// Prints one sentence for each hand-in and scene.
+pub fn print_sentences(convergence: &Convergence) {
+    for panel in &convergence.panels {
+        for sentence in sentences(panel) {
+            // Nobody may be reading any more.
+            let _ = writeln!(io::stdout(), "{sentence}");
+        }
+    }
+    for left_out in &convergence.left_out {
+        let _ = writeln!(io::stdout(), "left out: {}: {}", left_out.check, left_out.why);
+    }
+}
+
+/// What a panel says of each hand-in.
+pub fn sentences(panel: &Panel) -> Vec<String> {
+    let hand_ins = panel.curves.iter().filter(|curve| curve.role == Role::Submission);
+    let sentence = |curve: &Curve| {
+        let point = curve.points.last()?;
+        let mut text = format!(
+            "{}, {}: relative MSE {} after {} s",
+            panel.scene,
+            panel.technique,
+            number(point.relative_mse.value),
+            number(point.seconds)
+        );
+        for (name, other) in [("the solution", Role::Solution), ("BSDF sampling", Role::Baseline)] {
+            let others = panel.curves.iter().find(|curve| curve.role == other);
+            if let Some(other) = others.and_then(|curve| curve.points.last()) {
+                text += &format!(", {name} {}", number(other.relative_mse.value));
+            }
+        }
+        if let Some(slope) = curve.slope {
+            text += &format!("; slope {} (−1 is right)", with_interval(slope));
+        }
+        if let Some(efficiency) = curve.efficiency {
+            text += &format!("; efficiency {} of the solution's", with_interval(efficiency));
+        }
+        if curve.floor {
+            text += &format!("; it flattens: a bias of {} stays", bias(curve));
+        }
+        Some(text)
+    };
+    hand_ins.filter_map(sentence).collect()
+}
+
+fn table(panel: &Panel) -> Table {
+    let mut table = Table::new();
+    table.load_style(UTF8_HORIZONTAL_ONLY).set_content_arrangement(ContentArrangement::Dynamic).set_header([
+        "program".to_owned(),
+        "relative MSE, longest".to_owned(),
+        "trimmed".to_owned(),
+        "slope (−1)".to_owned(),
+        "bias".to_owned(),
+        "efficiency".to_owned(),
+        format!("time to {}", number(panel.target)),
+    ]);
+    for curve in &panel.curves {
+        let last = curve.points.last();
+        let error = last.map_or("–".to_owned(), |point| {
+            format!("{} after {} s", with_interval(point.relative_mse), number(point.seconds))
+        });
+        let target = match (curve.seconds_to_target, last) {
+            (Some(seconds), _) => format!("{} s", number(seconds)),
+            (None, Some(point)) => format!("> {} s", number(point.seconds)),
+            (None, None) => "–".to_owned(),
+        };
+        table.add_row(
+            [
+                curve.name.clone(),
+                error,
+                last.map_or("–".to_owned(), |point| number(point.trimmed_relative_mse.value)),
+                curve.slope.map_or("–".to_owned(), with_interval),
+                bias(curve),
+                curve.efficiency.map_or("–".to_owned(), with_interval),
+                target,
+            ]
+            .into_iter()
+            .enumerate()
+            .map(|(index, text)| {
+                let side = if index == 0 { CellAlignment::Left } else { CellAlignment::Right };
+                Cell::new(text).set_alignment(side)
+            }),
+        );
+    }
+    table
+}
+
+/// The root of the relative squared bias, where there is any to be seen.
+fn bias(curve: &Curve) -> String {
+    match curve.relative_bias_squared {
+        Some(estimate) if curve.floor => format!("{:.1} %", 100.0 * estimate.value.max(0.0).sqrt()),
+        Some(_) => "none seen".to_owned(),
+        None => "–".to_owned(),
+    }
+}
+
+fn with_interval(Estimate { value, interval: [low, high] }: Estimate) -> String {
+    format!("{} [{}, {}]", number(value), number(low), number(high))
+}
+
+/// Three digits, without zeros that say nothing.
+pub(super) fn number(value: f64) -> String {
+    if value == 0.0 || (0.01..1000.0).contains(&value.abs()) {
+        let digits = (2.0 - value.abs().max(1e-9).log10().floor()).clamp(0.0, 4.0) as usize;
+        format!("{value:.digits$}")
+    } else {
+        format!("{value:.1e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+
+    #[test]
+    fn numbers_have_three_digits() {
+        for (value, text) in [
+            (0.0, "0.0000"),
+            (1.0, "1.00"),
+            (-0.987, "-0.987"),
+            (0.0123, "0.0123"),
+            (1.5e-4, "1.5e-4"),
+            (123.4, "123"),
+        ] {
+            assert_eq!(number(value), text);
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! JUnit's XML: a suite for each task, a test case for each check. Why something failed stands in the element's text, too:
+//! some show that, others its attribute `message`.
+
+use std::time::Duration;
+
+use quick_junit::{NonSuccessKind, Report as Document, TestCase, TestCaseStatus, TestSuite};
+
+use super::wording::word;
+use verdict::report::{CheckResult, Report, TaskResult, Verdict};
+
+/// The document. Names of test cases are told apart by their suites and their class names, which are the tasks.
+pub(super) fn xml(report: &Report) -> Result<String, quick_junit::SerializeError> {
+    let mut document = Document::new(&report.assignment);
+    if let Some(failure) = &report.submission.build_failure {
+        let mut suite = TestSuite::new("build");
+        let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
+        status.set_message("it does not compile").set_type("build").set_description(&failure.messages);
+        suite.add_test_case(case("build", "compile", status, report.cost.build));
+        document.add_test_suite(suite);
+    }
+    for task in &report.tasks {
+        document.add_test_suite(suite(report, task));
+    }
+    document.to_string()
+}
+
+fn suite(report: &Report, task: &TaskResult) -> TestSuite {
+    let mut suite = TestSuite::new(format!("{} {}", task.id, task.title));
+    if let Some(points) = task.points {
+        suite.add_property(("points", points.to_string().as_str()));
+    }
+    suite.add_property(("max", task.max.to_string().as_str()));
+    if task.elsewhere > 0.0 {
+        suite.add_property(("elsewhere", task.elsewhere.to_string().as_str()));
+    }
+    for check in report.checks.iter().filter(|check| check.task == task.id) {
+        let mut case = case(&task.id, &check.id, status(check), check.seconds);
+        if !check.remarks.is_empty() {
+            case.set_system_out(check.remarks.join("\n"));
+        }
+        suite.add_test_case(case);
+    }
+    for left_out in report.left_out.iter().filter(|left_out| task.checks.contains(&left_out.check)) {
+        suite.add_test_case(case(&task.id, &left_out.check, skipped(&left_out.why), 0.0));
+    }
+    let unexplained =
+        suite.test_cases.is_empty() || (report.lacking(&task.id).is_empty() && !task.reason.is_empty());
+    if unexplained {
+        // A task without checks of its own, or one that lost its points by another's.
+        let status = match task.points {
+            Some(points) if points + task.elsewhere < task.max => failed(&task.reason, "task"),
+            _ => skipped(&task.reason),
+        };
+        suite.add_test_case(case(&task.id, "points", status, 0.0));
+    }
+    suite
+}
+
+fn case(class: &str, name: &str, status: TestCaseStatus, seconds: f64) -> TestCase {
+    let mut case = TestCase::new(name, status);
+    case.set_classname(class).set_time(Duration::try_from_secs_f64(seconds).unwrap_or_default());
+    case
+}
+
+fn status(check: &CheckResult) -> TestCaseStatus {
+    match check.verdict {
+        Verdict::Pass => TestCaseStatus::success(),
+        Verdict::LeftOut => skipped(&check.explanation),
+        Verdict::Fail | Verdict::Inconclusive => {
+            let mut status = failed(&check.explanation, word(check.verdict));
+            status.set_description(format!("{}\n\nagain: {}", check.explanation, check.repeat));
+            status
+        }
+        Verdict::Error => {
+            let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
+            status.set_message(&check.explanation).set_type("harness").set_description(&check.explanation);
+            status
+        }
+    }
+}
+
+fn failed(why: &str, kind: &str) -> TestCaseStatus {
+    let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
+    status.set_message(why).set_type(kind).set_description(why);
+    status
+}
+
+fn skipped(why: &str) -> TestCaseStatus {
+    let mut status = TestCaseStatus::skipped();
+    status.set_message(why).set_description(why);
+    status
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use verdict::sample::{EVIL, report};
+
+    #[test]
+    fn what_is_written_reads_back_whatever_stands_in_the_report() {
+        let text = xml(&report(EVIL)).expect("it can be made");
+        let read = Document::deserialize_from_str(&text).expect("it is JUnit's XML");
+        assert_eq!(read.test_suites.len(), 2, "{text}");
+        assert_eq!((read.tests, read.failures), (3, 1), "{text}");
+        let failed = &read.test_suites[0].test_cases[0];
+        assert!(
+            matches!(&failed.status, TestCaseStatus::NonSuccess { message: Some(message), .. }
+            if message.as_str().contains("<script>")),
+            "{failed:?}"
+        );
+        // XML allows no control characters but three, not even escaped.
+        assert!(!text.chars().any(|c| c.is_control() && !"\n\r\t".contains(c)), "{text:?}");
+        let points = &read.test_suites[0].properties[0];
+        assert_eq!((points.name.as_str(), points.value.as_str()), ("points", "12.5"));
+    }
+
+    #[test]
+    fn what_does_not_compile_is_an_error_and_no_empty_success() {
+        let mut report = report("x");
+        report.checks.clear();
+        report.left_out.clear();
+        report.tasks[0].points = Some(0.0);
+        report.submission.build_failure =
+            Some(verdict::submission::BuildFailure { messages: "error: x]]>".to_owned(), line: None });
+        let text = xml(&report).expect("it can be made");
+        let read = Document::deserialize_from_str(&text).expect("it is JUnit's XML");
+        assert_eq!((read.errors, read.failures), (1, 1), "{text}");
+    }
+}

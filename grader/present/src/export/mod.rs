@@ -1,0 +1,148 @@
+//! The report in the formats of other systems: one file a format, each made from a [`Report`] alone.
+//!
+//! Names, panic messages and paths may hold anything; what is special in a format is escaped by that format.
+
+mod autolab;
+mod classroom50;
+mod github;
+mod gradescope;
+mod junit;
+mod markdown;
+mod surroundings;
+mod wording;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use verdict::edition::for_student;
+use verdict::error::{Error, Result};
+use verdict::report::Report;
+
+pub use github::annotations;
+pub use markdown::summary;
+pub use surroundings::{Received, Surroundings};
+
+/// A format of another system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Format {
+    /// A summary in GitHub's Markdown.
+    Markdown,
+    /// JUnit's XML, as GitLab, Jenkins and others show it.
+    Junit,
+    /// GitHub's annotations: workflow commands for standard output.
+    Github,
+    /// Gradescope's `results.json`.
+    Gradescope,
+    /// The `result.json` of Classroom 50.
+    Classroom50,
+    /// The line that Autolab reads.
+    Autolab,
+}
+
+impl Format {
+    /// The name of its file where none is asked for; `-` is standard output.
+    pub fn default_file(self) -> &'static str {
+        match self {
+            Self::Markdown => "summary.md",
+            Self::Junit => "junit.xml",
+            Self::Gradescope => "results.json",
+            Self::Classroom50 => "result.json",
+            Self::Github | Self::Autolab => "-",
+        }
+    }
+
+    /// The report in this format.
+    ///
+    /// # Errors
+    /// If the format's library fails, which is a fault of the grader's.
+    pub fn render(self, report: &Report, surroundings: &Surroundings) -> Result<String> {
+        let trouble = |error: &dyn std::fmt::Display| Error::Harness(format!("export: {error}"));
+        match self {
+            Self::Markdown => Ok(markdown::summary(report)),
+            Self::Junit => junit::xml(report).map_err(|error| trouble(&error)),
+            Self::Github => Ok(github::annotations(report, surroundings)),
+            // What it shows is read by the student.
+            Self::Gradescope => {
+                let (student, _) = for_student(report, None)?;
+                gradescope::results(&student, surroundings).map_err(|error| trouble(&error))
+            }
+            Self::Classroom50 => classroom50::result(report, surroundings).map_err(|error| trouble(&error)),
+            Self::Autolab => autolab::line(report).map_err(|error| trouble(&error)),
+        }
+    }
+}
+
+/// A format and where it goes, as in `junit` or `junit:build/junit.xml`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Export {
+    /// The format.
+    pub format: Format,
+    /// The file; `-` is standard output. Without one, [`Format::default_file`] in the folder of the report.
+    pub file: Option<PathBuf>,
+}
+
+impl FromStr for Export {
+    type Err = String;
+
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        let (name, file) = text.split_once(':').map_or((text, None), |(name, file)| (name, Some(file)));
+        let format = <Format as clap::ValueEnum>::from_str(name, false).map_err(|_| {
+            let all = <Format as clap::ValueEnum>::value_variants().iter();
+            let names: Vec<String> = all
+                .filter_map(|format| Some(clap::ValueEnum::to_possible_value(format)?.get_name().to_owned()))
+                .collect();
+            format!("there are {}", names.join(", "))
+        })?;
+        if file == Some("") {
+            return Err("after the colon, the name of a file is wanted, or `-`".to_owned());
+        }
+        Ok(Self { format, file: file.map(PathBuf::from) })
+    }
+}
+
+impl Export {
+    /// Where it goes, for a report in `folder`; `None` is standard output.
+    pub fn target(&self, folder: &Path) -> Option<PathBuf> {
+        let default = || match self.format.default_file() {
+            "-" => PathBuf::from("-"),
+            name => folder.join(name),
+        };
+        let file = self.file.clone().unwrap_or_else(default);
+        (file != Path::new("-")).then_some(file)
+    }
+
+    /// Writes the report there.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn write(&self, report: &Report, surroundings: &Surroundings, folder: &Path) -> Result<()> {
+        let text = self.format.render(report, surroundings)?;
+        let Some(file) = self.target(folder) else {
+            // Nobody may be reading any more.
+            let _ = std::io::stdout().lock().write_all(text.as_bytes());
+            return Ok(());
+        };
+        arty::image::write_aside(&file, |writer| writer.write_all(text.as_bytes()))?;
+        eprintln!("written: {}", file.display());
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_format_may_name_its_file() {
+        let export = |text: &str| text.parse::<Export>();
+        let folder = Path::new("report");
+        let target = |text: &str| export(text).expect("it is a format").target(folder);
+        assert_eq!(target("junit"), Some(PathBuf::from("report/junit.xml")));
+        assert_eq!(target("junit:a:b.xml"), Some(PathBuf::from("a:b.xml")));
+        assert_eq!(target("junit:-"), None);
+        assert_eq!(target("autolab"), None);
+        assert!(export("word").expect_err("no such format").contains("gradescope"));
+        assert!(export("junit:").is_err());
+    }
+}

@@ -1,0 +1,81 @@
+//! The pages as files beside a report.
+
+use std::path::{Path, PathBuf};
+
+use super::page;
+use verdict::edition::{Edition, for_student};
+use verdict::error::{Error, Result};
+use verdict::pictures::Picture;
+use verdict::report::Report;
+
+/// For whom pages are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Readers<'a> {
+    /// The student, who has graded: `report.html`.
+    Student,
+    /// Staff, and the student: `report-tutor.html`, too. With a path, the student's page names this instead of the
+    /// hand-in's.
+    Staff(Option<&'a str>),
+}
+
+/// Writes the pages of a report beside its file.
+///
+/// # Errors
+/// If a file cannot be written.
+pub fn write_pages(report: &Report, pictures: &[Picture], file: &Path, readers: Readers<'_>) -> Result<()> {
+    let path = match readers {
+        Readers::Student => None,
+        Readers::Staff(path) => path,
+    };
+    let (student, edition) = for_student(report, path)?;
+    let [for_students, for_tutors] = pages_beside(file);
+    if readers == Readers::Student {
+        return write(&for_students, &small_enough(&student, pictures, edition));
+    }
+    for (target, report, edition) in [(for_students, &student, edition), (for_tutors, report, Edition::Tutor)]
+    {
+        write(&target, &small_enough(report, pictures, edition))?;
+    }
+    Ok(())
+}
+
+fn write(path: &Path, text: &str) -> Result<()> {
+    Ok(arty::image::write_aside(path, |writer| std::io::Write::write_all(writer, text.as_bytes()))?)
+}
+
+/// The most bytes of a page: it is sent by mail, and kept for everybody.
+const LARGEST: usize = 3_000_000;
+
+/// The page, without its last pictures if it would be too large with them.
+fn small_enough(report: &Report, pictures: &[Picture], edition: Edition) -> String {
+    let shown = |count: usize| page(report, &pictures[..count], edition);
+    let sizes = (1..=pictures.len()).rev();
+    sizes.map(shown).find(|text| text.len() <= LARGEST).unwrap_or_else(|| shown(0))
+}
+
+/// Removes the pages of an earlier grade, which would lie beside the report of another, and their pictures.
+///
+/// # Errors
+/// If one is there and cannot be removed.
+pub fn remove_pages(file: &Path) -> Result<()> {
+    let [student, tutor] = pages_beside(file);
+    for path in [student, tutor, pictures_beside(file)] {
+        match std::fs::remove_file(&path) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                return Err(Error::file(&path, error));
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+/// The student's edition, `report.html`, and the tutor's, `report-tutor.html`, beside a `report.json`.
+pub fn pages_beside(file: &Path) -> [PathBuf; 2] {
+    ["report.html", "report-tutor.html"].map(|name| file.with_file_name(name))
+}
+
+/// The pictures of the pages, beside a `report.json`.
+pub fn pictures_beside(file: &Path) -> PathBuf {
+    file.with_file_name("pictures.bin")
+}

@@ -1,0 +1,19 @@
+//! The data of a grade: what is asked for, what was found, what it is worth. Nothing here runs or judges anything.
+//!
+//! A [`rubric`] names the checks of an assignment and their points. A [`report`] holds one grade of a
+//! [`submission`]; every page, table and export is made from it. [`edition`] removes what students must not see before
+//! any format is written.
+
+pub mod convergence;
+pub mod edition;
+pub mod error;
+pub mod pictures;
+pub mod replay;
+pub mod report;
+pub mod rubric;
+#[cfg(any(test, feature = "sample"))]
+pub mod sample;
+pub mod sandbox;
+mod smape;
+pub mod submission;
+pub mod text;

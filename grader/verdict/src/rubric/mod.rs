@@ -1,0 +1,157 @@
+//! What an assignment asks for, and what it is worth.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use arty::integrator::Technique;
+use serde::Deserialize;
+
+use crate::error::{Error, Result};
+
+mod check;
+mod rules;
+
+pub use check::{CheckKind, CheckSpec, Hits, SCRIPTED, View, rivals};
+pub use rules::{LateRule, Md5Rule, Rules, zone};
+
+/// The contents of `rubric.yml`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rubric {
+    /// The assignment's name: that of its folder.
+    pub assignment: String,
+    /// Its title.
+    pub title: String,
+    /// What becomes of late hand-ins; without it, nothing is late.
+    #[serde(default)]
+    pub policy: Option<Rules>,
+    /// The tasks, in the order of the sheet.
+    pub tasks: Vec<Task>,
+}
+
+/// One task of the sheet.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Task {
+    /// Its number on the sheet.
+    pub id: String,
+    /// What it is about.
+    pub title: String,
+    /// Points for all of it.
+    pub points: f64,
+    /// True if a person marks it. Then it has no checks.
+    #[serde(default)]
+    pub manual: bool,
+    /// Tasks whose evidence this one rests on as well: it earns nothing unless they have all of theirs.
+    #[serde(default)]
+    pub requires: Vec<String>,
+    /// What is looked at. Each check carries the same share of the points, or `weight` times as much.
+    #[serde(default)]
+    pub checks: Vec<CheckSpec>,
+}
+
+impl Rubric {
+    /// Reads the rubric of an assignment.
+    pub fn load(path: &Path) -> Result<Self> {
+        let (rubric, _) = arty::yaml::read::<Self>(path)?;
+        rubric.validate().map_err(|message| Error::file(path, message))?;
+        Ok(rubric)
+    }
+
+    fn validate(&self) -> std::result::Result<(), String> {
+        self.policy.as_ref().map_or(Ok(()), Rules::validate)?;
+        for task in &self.tasks {
+            let id = &task.id;
+            if !(task.points.is_finite() && task.points > 0.0) {
+                return Err(format!("task {id}: `points` must be a positive number"));
+            }
+            if task.manual != task.checks.is_empty() {
+                return Err(format!("task {id}: either `manual: true` or a list of `checks`"));
+            }
+            if !task.manual && !task.checks.iter().any(|check| check.evidence) {
+                return Err(format!(
+                    "task {id}: at least one check with `evidence: true`, or an untouched file earns points"
+                ));
+            }
+            for required in &task.requires {
+                let known = self.tasks.iter().any(|other| other.id == *required && !other.manual);
+                if !known || required == id {
+                    return Err(format!(
+                        "task {id}: `requires` names `{required}`, which is no other task with checks"
+                    ));
+                }
+            }
+            for check in &task.checks {
+                check.validate().map_err(|message| format!("task {id}, {}: {message}", check.id()))?;
+            }
+            if let Some(twice) = task.checks.iter().enumerate().find_map(|(index, check)| {
+                let earlier = &task.checks[..index];
+                earlier.iter().any(|other| other.id() == check.id()).then(|| check.id())
+            }) {
+                return Err(format!("task {id}: {twice} stands there twice"));
+            }
+        }
+        Ok(())
+    }
+
+    /// All checks with the task they belong to.
+    pub fn checks(&self) -> impl Iterator<Item = (&Task, &CheckSpec)> {
+        self.tasks.iter().flat_map(|task| task.checks.iter().map(move |check| (task, check)))
+    }
+
+    /// For each scene that is checked: for each picture that its reference needs, the techniques.
+    pub fn scenes(&self) -> BTreeMap<&str, BTreeMap<View, Vec<Technique>>> {
+        let mut scenes: BTreeMap<&str, BTreeMap<View, Vec<Technique>>> = BTreeMap::new();
+        for (_, check) in self.checks().filter(|(_, check)| check.check.needs_scene()) {
+            let techniques = scenes.entry(&check.scene).or_default().entry(check.view()).or_default();
+            for technique in check.techniques() {
+                if !techniques.contains(&technique) {
+                    techniques.push(technique);
+                }
+            }
+        }
+        scenes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn load(text: &str) -> std::result::Result<Rubric, String> {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("rubric.yml");
+        std::fs::write(&path, text).expect("it can be written");
+        Rubric::load(&path).map_err(|error| error.to_string())
+    }
+
+    const CHECK: &str = "{check: mean-bias, scene: a, technique: nee, max_bounces: 1";
+
+    #[test]
+    fn a_wrong_rubric_is_one_clear_error() {
+        let task = |rest: &str| {
+            format!("assignment: a\ntitle: t\ntasks:\n- {{id: x, title: t, points: 1, {rest}}}\n")
+        };
+        for (text, expected) in [
+            (task("manual: false"), "either `manual: true` or a list of `checks`"),
+            (task(&format!("checks: [{CHECK}}}]")), "evidence: true"),
+            (task(&format!("checks: [{CHECK}, evidence: true, weight: -1}}]")), "`weight` must be"),
+            (task(&format!("checks: [{CHECK}, evidence: true, tolerance: 2}}]")), "`tolerance` must be"),
+            (task(&format!("checks: [{CHECK}, evidence: true, colour: 2}}]")), "rubric.yml:4: "),
+            (
+                task("checks: [{check: mis-weights, technique: nee, max_bounces: 3, evidence: true}]"),
+                "the technique mis",
+            ),
+            (
+                task("checks: [{check: mean-bias, technique: nee, max_bounces: 3, evidence: true}]"),
+                "needs a `scene`",
+            ),
+            (task(&format!("checks: [{CHECK}, evidence: true, hits: no}}]")), "rubric.yml:4: "),
+            ("tasks: [".to_owned(), "rubric.yml:"),
+        ] {
+            let message = load(&text).expect_err(expected);
+            assert!(message.contains(expected), "{message}");
+        }
+        assert!(load(&task(&format!("checks: [{CHECK}, evidence: true}}]"))).is_ok());
+    }
+}

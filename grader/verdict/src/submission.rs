@@ -1,0 +1,92 @@
+//! What of a hand-in is graded.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, Result};
+use crate::report::Reason;
+
+/// The name of the one file that counts.
+pub const FILE_NAME: &str = "render_pt.rs";
+
+/// A hand-in's source.
+#[derive(Clone, Debug)]
+pub struct Submission {
+    /// The path as it was given.
+    pub path: PathBuf,
+    /// The text of its `render_pt.rs`, with lines that end in `\n`.
+    pub source: String,
+}
+
+impl Submission {
+    /// Reads a source file that the staff wrote. What others sent goes through the crate `intake`.
+    ///
+    /// # Errors
+    /// If it cannot be read as UTF-8.
+    pub fn load_trusted(path: &Path) -> Result<Self> {
+        let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
+        Ok(Self { path: path.to_owned(), source: text.replace("\r\n", "\n") })
+    }
+
+    /// BLAKE3 of the source, in hexadecimal.
+    pub fn hash(&self) -> String {
+        blake3::hash(self.source.as_bytes()).to_hex().to_string()
+    }
+}
+
+/// Why a hand-in does not compile.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BuildFailure {
+    /// rustc's messages as it shows them on a terminal without colours; lines are those of the hand-in.
+    pub messages: String,
+    /// The line of the first error in the hand-in, where rustc names one.
+    pub line: Option<u32>,
+}
+
+/// What kind of file an explanation is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ExplanationKind {
+    /// `.txt` or `.md`: its text is kept.
+    Text,
+    /// `.pdf`, or a text that cannot be read: only its name, size and hash are kept.
+    Binary,
+}
+
+/// A written explanation.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Explanation {
+    /// Its name in the hand-in.
+    pub name: String,
+    /// Text or not.
+    pub kind: ExplanationKind,
+    /// Its size.
+    pub bytes: usize,
+    /// BLAKE3 of its bytes, in hexadecimal.
+    pub hash: String,
+    /// Its text, where it is one.
+    pub text: Option<String>,
+}
+
+/// A note or refusal as it is stored: a code and a sentence.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct IntakeFinding {
+    /// In kebab-case, as `missing-file`.
+    pub code: String,
+    /// The same for people.
+    pub message: String,
+}
+
+/// Something that a hand-in names.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SourceFinding {
+    /// [`Reason::Violation`].
+    pub reason: Reason,
+    /// The line of the hand-in, counted from 1.
+    pub line: usize,
+    /// What stands there, as in `std::fs`.
+    pub what: String,
+    /// Why that is of no use.
+    pub why: String,
+}
