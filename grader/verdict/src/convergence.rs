@@ -11,15 +11,14 @@
 //! a bias, which no time takes away, or random numbers that repeat.
 
 use arty::integrator::Technique;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-use crate::report::LeftOut;
 
 /// The scenes that tell most: diffuse with a small light, glossy with a large one, both at once, very many lights.
 pub const TELLING_SCENES: [&str; 4] = ["cornell_box", "cornell_box_glossy", "veach_mis", "many_lights"];
 
 /// Everything that was measured.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Convergence {
     /// Threads of each program.
     pub threads: usize,
@@ -33,12 +32,24 @@ pub struct Convergence {
     pub left_out: Vec<LeftOut>,
 }
 
+/// Something that was not measured.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LeftOut {
+    /// The program, and its technique where it has several.
+    pub program: String,
+    /// The scene; empty for all of them.
+    pub scene: String,
+    /// Why.
+    pub why: String,
+}
+
 /// What is drawn into one plot.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Panel {
     /// The scene.
     pub scene: String,
     /// The technique of hand-ins and solution.
+    #[schemars(with = "crate::schema::TechniqueName")]
     pub technique: Technique,
     /// The largest number of bounces.
     pub max_bounces: u32,
@@ -51,7 +62,7 @@ pub struct Panel {
 }
 
 /// Whose curve it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Role {
     /// Of a hand-in.
@@ -63,13 +74,14 @@ pub enum Role {
 }
 
 /// The errors of one program, with one technique, in one scene.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Curve {
     /// What it is called in tables and plots.
     pub name: String,
     /// Whose it is.
     pub role: Role,
     /// The technique.
+    #[schemars(with = "crate::schema::TechniqueName")]
     pub technique: Technique,
     /// From the shortest renderings to the longest.
     pub points: Vec<Point>,
@@ -88,7 +100,7 @@ pub struct Curve {
 }
 
 /// The error of renderings of one length.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Point {
     /// Samples of each pixel in each rendering.
     pub samples: u64,
@@ -109,7 +121,7 @@ pub struct Point {
 }
 
 /// A number with its 95 % bootstrap interval.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Estimate {
     /// The estimate.
     pub value: f64,

@@ -12,6 +12,9 @@ pub enum Error {
     /// The grader itself or the machine.
     #[error("{0}")]
     Harness(String),
+    /// A result that cannot be written: a full disk, a read-only folder.
+    #[error("{0}")]
+    Output(String),
 }
 
 /// A result whose failure is not the hand-in's doing.
@@ -27,7 +30,7 @@ impl Error {
     pub fn exit_code(&self) -> ExitCode {
         match self {
             Self::Input(_) => ExitCode::from(2),
-            Self::Harness(_) => ExitCode::from(3),
+            Self::Harness(_) | Self::Output(_) => ExitCode::from(3),
         }
     }
 }

@@ -4,9 +4,11 @@
 //! [`submission`]; every page, table and export is made from it. [`edition`] removes what students must not see before
 //! any format is written.
 
+pub mod check;
 pub mod convergence;
 pub mod edition;
 pub mod error;
+pub mod number;
 pub mod pictures;
 pub mod replay;
 pub mod report;
@@ -14,6 +16,7 @@ pub mod rubric;
 #[cfg(any(test, feature = "sample"))]
 pub mod sample;
 pub mod sandbox;
+pub mod schema;
 mod smape;
 pub mod submission;
 pub mod text;

@@ -51,11 +51,12 @@ pub struct Rendered {
 
 /// **reference-image**: how far a picture with few samples is from the reference. Reported, and never deciding: most of
 /// it is noise.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct ImageError {
     /// The scene.
     pub scene: String,
     /// The technique.
+    #[schemars(with = "crate::schema::TechniqueName")]
     pub technique: Technique,
     /// The largest number of bounces.
     pub max_bounces: u32,

@@ -1,6 +1,41 @@
 //! One path of a submission with every call that it made, as data: what `judge` follows and `present` shows.
 
-use serde::Serialize;
+use arty::integrator::Technique;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::rubric::EmissionOnHit;
+
+/// A path by its numbers, in a scene that may have been made larger or brighter.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ReplayTarget {
+    /// Name of the scene: one of `scenes/` or `scenes/extreme/`, or [`ReplayTarget::ROOM`].
+    pub scene: String,
+    /// How many times as large it is.
+    pub scale: f64,
+    /// How many times as bright it is.
+    pub emission: f32,
+    /// Technique of the submission.
+    #[schemars(with = "crate::schema::TechniqueName")]
+    pub technique: Technique,
+    /// Maximum number of bounces.
+    pub max_bounces: u32,
+    /// Whether lights that are hit emit anything.
+    pub emission_on_hit: EmissionOnHit,
+    /// Width and height of the picture in pixels.
+    pub size: [u32; 2],
+    /// Seed of the rendering.
+    pub seed: u64,
+    /// Column and row.
+    pub pixel: [u32; 2],
+    /// Number of the sample.
+    pub sample: u64,
+}
+
+impl ReplayTarget {
+    /// Name of the scene that the check `stability` makes in memory.
+    pub const ROOM: &str = "stability-room";
+}
 
 /// A path with every call.
 #[derive(Clone, Debug, Serialize)]

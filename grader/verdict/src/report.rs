@@ -1,69 +1,69 @@
-//! What a grade has found. `report.json` holds all of it; every other format is made from that.
+//! One grade of one submission. `report.json` holds all of it; every other format is made from that.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
-use arty::integrator::Technique;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::check::{CheckId, CheckKind, CheckResult, Numerics, Verdict, Visibility, WhyNot};
 use crate::convergence::Convergence;
 use crate::error::{Error, Result};
 use crate::pictures::ImageError;
-use crate::rubric::CheckKind;
-use crate::sandbox::{Layers, Level, both, missing};
+use crate::sandbox::{Layers, Level};
 use crate::submission::{BuildFailure, Explanation, IntakeFinding, SourceFinding};
+use arty::integrator::Technique;
 
-/// The version of the format.
-pub const SCHEMA: &str = "arty-report/1";
+/// Version of the format.
+pub const SCHEMA: &str = "arty-report/2";
 
-/// The result of grading one hand-in.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// The result of grading one submission.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Report {
     /// [`SCHEMA`].
     pub schema: String,
     /// What was graded.
     pub submission: SubmissionInfo,
-    /// For which assignment.
+    /// Name of the assignment.
     pub assignment: String,
-    /// The sums.
+    /// Sums of points.
     pub points: Points,
-    /// Task by task.
+    /// Points task by task.
     pub tasks: Vec<TaskResult>,
-    /// Check by check.
+    /// Checks that were planned for this submission.
     pub checks: Vec<CheckResult>,
-    /// What the scenes made pointless.
-    pub left_out: Vec<LeftOut>,
+    /// Checks that mean nothing in their scenes, whatever the submission.
+    pub skipped: Vec<SkippedCheck>,
     /// Likely causes, the likeliest first.
     pub diagnosis: Vec<Diagnosis>,
-    /// Samples that were no radiance.
+    /// Samples that are not radiance, over all checks.
     pub numerics: Numerics,
     /// Where the time went.
     pub cost: Cost,
-    /// How the hand-in was confined.
+    /// How the submission was confined.
     pub sandbox: Sandbox,
     /// What the grade rests on.
-    pub provenance: BTreeMap<String, String>,
+    pub provenance: Provenance,
     /// Error against run time, where it was measured: that begins when the points stand, and changes none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub convergence: Option<Convergence>,
-    /// How far a few pictures are from their references, where they were rendered. That changes no points either.
+    /// Errors of a few pictures against their references, where they were rendered. They change no points either.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub images: Vec<ImageError>,
 }
 
 /// What was graded.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SubmissionInfo {
-    /// The path as it was given.
+    /// Its path as it was given.
     pub path: String,
-    /// BLAKE3 of the source.
+    /// BLAKE3 of its source, in hexadecimal.
     pub hash: String,
-    /// Why it does not compile, if it does not. Where there was nothing to compile, this says so, too.
+    /// Why it does not compile, if it does not.
     pub build_failure: Option<BuildFailure>,
-    /// Written explanations that came with it, for a person to mark.
+    /// Written explanations that came with it, for a tutor to grade.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub explanations: Vec<Explanation>,
-    /// Why there was nothing to compile, with its code.
+    /// Why there was nothing to compile.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refusal: Option<IntakeFinding>,
     /// What was odd when it was taken in. It costs no points.
@@ -72,305 +72,242 @@ pub struct SubmissionInfo {
 }
 
 /// Sums of points.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Points {
     /// Earned in the tasks that are graded automatically.
     pub earned: f64,
     /// What these tasks are worth.
     pub automatic_max: f64,
-    /// What the tasks are worth that a person marks.
+    /// What the tasks are worth that a tutor grades.
     pub manual_max: f64,
     /// Both together.
     pub max: f64,
-    /// Given by a person so far; none if nobody has marked anything.
+    /// Given by a tutor so far; none if nothing has been graded by hand.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub marked: Option<f64>,
-    /// Of `automatic_max`, what rests on checks that are left out here because they need the solution.
+    pub manual: Option<f64>,
+    /// Of `automatic_max`, what is decided by checks that only staff can run.
     #[serde(default)]
-    pub elsewhere: f64,
+    pub staff_only: f64,
 }
 
 /// The points of one task.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TaskResult {
     /// Its number on the sheet.
     pub id: String,
-    /// What it is about.
+    /// Its title.
     pub title: String,
-    /// Points earned; none yet where a person marks.
+    /// Points earned; none yet where a tutor grades, or where not all checks were run.
     pub points: Option<f64>,
     /// Points for all of it.
     pub max: f64,
-    /// Of these, what rests on checks that are left out here because they need the solution.
+    /// Of these, what is decided by checks that only staff can run.
     #[serde(default)]
-    pub elsewhere: f64,
+    pub staff_only: f64,
     /// The checks that decide.
-    pub checks: Vec<String>,
-    /// Why points are missing.
-    pub reason: String,
+    pub checks: Vec<CheckId>,
+    /// Where its points are.
+    pub state: TaskState,
 }
 
-/// The outcome of one check.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CheckResult {
-    /// What tells it from all others.
-    pub id: String,
-    /// The kind of check.
-    pub check: CheckKind,
+/// Where the points of a task are.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum TaskState {
+    /// Each check earned its share, but for these.
+    Graded {
+        /// Checks that did not pass.
+        missing: Vec<CheckId>,
+    },
+    /// A check did not pass that must pass for any points; none where students do not see it.
+    RequiredCheckMissing(Option<CheckId>),
+    /// This other task must have its required checks first.
+    RequiredTaskMissing(String),
+    /// The submission does not compile.
+    NotCompiled,
+    /// There was nothing that could be graded.
+    NothingToGrade,
+    /// Not all of its checks were run, as was asked for.
+    Partial,
+    /// A tutor grades it, with this comment once that is done.
+    ByHand {
+        /// What the student is told.
+        comment: Option<String>,
+    },
+}
+
+/// A check that means nothing in a scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SkippedCheck {
+    /// Kind of check.
+    pub kind: CheckKind,
+    /// Technique.
+    #[schemars(with = "crate::schema::TechniqueName")]
+    pub technique: Technique,
     /// The scene.
     pub scene: String,
-    /// The task that it decides.
-    pub task: String,
-    /// The technique that was asked for.
-    pub technique: Technique,
-    /// The largest number of bounces.
-    pub max_bounces: u32,
-    /// True if the task earns nothing without it.
-    pub evidence: bool,
-    /// The outcome.
-    pub verdict: Verdict,
-    /// Why, as a code.
-    pub reason: Reason,
-    /// Why, in a sentence.
-    pub explanation: String,
-    /// The relative error of the mean, in the region that decided.
-    pub effect: Option<f64>,
-    /// Its 99 % interval.
-    pub interval: Option<[f64; 2]>,
-    /// The smallest relative error of the whole image that would have been found.
-    pub detectable: Option<f64>,
-    /// Paths traced.
-    pub samples: u64,
-    /// Time it took.
-    pub seconds: f64,
-    /// Samples that were NaN or infinite.
-    pub non_finite: u64,
-    /// Samples that were negative.
-    pub negative: u64,
-    /// What was found about the weights, where they were looked at.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub weights: Option<Weights>,
-    /// In a furnace: how many times light counts that is scattered 0, 1, 2, … times. Each should be 1.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub coefficients: Vec<f64>,
-    /// Half the 99 % interval of each of these.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub coefficient_margins: Vec<f64>,
-    /// How noisy the hand-in is, where that was looked at.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub variance_ratios: Vec<VarianceOf>,
-    /// What else tells one mistake from another, by name; which names there are is up to the kind of check.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub details: BTreeMap<String, f64>,
-    /// What is worth knowing, but costs no points.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub remarks: Vec<String>,
-    /// For each of 8 × 8 tiles (row by row from the top) how many standard errors it was off, as normal deviates, where
-    /// one picture was judged.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub z: Vec<f64>,
-    /// The command that repeats it.
-    pub repeat: String,
+    /// The check of the rubric that was skipped; none where the rubric does not ask for one.
+    pub check: Option<CheckId>,
+    /// Why.
+    pub why: WhyNot,
 }
 
-impl CheckResult {
-    /// The relative error of the whole image's mean, under the names by which [`Self::whole`] finds it.
-    pub fn enter_whole(&mut self, effect: f64, margin: f64) {
-        let values = [(WHOLE, effect), (WHOLE_MARGIN, margin)];
-        self.details = values
-            .into_iter()
-            .filter(|(_, value)| value.is_finite())
-            .map(|(name, value)| (name.to_owned(), value))
-            .collect();
+impl SkippedCheck {
+    /// Who may see it.
+    pub fn visibility(&self) -> Visibility {
+        Visibility::of(self.kind, &self.scene)
     }
-
-    /// The relative error of the whole image's mean, and half the width of its 99 % interval; none where no picture was
-    /// judged, or it should be black.
-    pub fn whole(&self) -> Option<[f64; 2]> {
-        Some([*self.details.get(WHOLE)?, *self.details.get(WHOLE_MARGIN)?])
-    }
-}
-
-const WHOLE: &str = "whole image";
-const WHOLE_MARGIN: &str = "whole image, margin";
-
-/// What was found about the weights.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Weights {
-    /// The largest |w_L + w_B − 1|, beyond noise.
-    pub largest_deviation: f64,
-    /// Exponents of p_L / p_B, distance, cosine at the light, number of lights, and 1 / density per area, in the odds of
-    /// the weights of light samples; none if the weights are no such product.
-    pub light_exponents: Option<[f64; 5]>,
-    /// The same for the weights of BSDF samples, in the odds against them.
-    pub bsdf_exponents: Option<[f64; 5]>,
-    /// For paths with one vertex, with densities that are not extreme: log₁₀ (p_L / p_B), w_L and w_B, in the order of the first.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub measured: Vec<[f32; 3]>,
-}
-
-/// What the weights of light samples, and those of BSDF samples, are called among a result's details if they are constant.
-pub const CONSTANT_WEIGHTS: [&str; 2] = ["constant of light samples", "constant against BSDF samples"];
-
-/// How noisy a hand-in is, compared with a technique.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct VarianceOf {
-    /// The solution's technique that it is compared with.
-    pub technique: Technique,
-    /// The hand-in's variance of one sample, relative to that one's.
-    pub ratio: f64,
-}
-
-/// How a check can end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Verdict {
-    /// What was looked for is right.
-    Pass,
-    /// It is wrong.
-    Fail,
-    /// It cannot be told: too noisy.
-    Inconclusive,
-    /// It was not looked at.
-    LeftOut,
-    /// The harness failed.
-    Error,
-}
-
-/// Why a check ended as it did.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Reason {
-    /// Nothing to complain about.
-    None,
-    /// The mean is wrong.
-    Bias,
-    /// The weights of multiple importance sampling are wrong.
-    Weights,
-    /// Too noisy.
-    Noise,
-    /// So noisy that a technique is missing.
-    Efficiency,
-    /// Random numbers that are shared or not those of the sampler.
-    Randomness,
-    /// More rays than the sheet allows.
-    RayBudget,
-    /// NaN, infinite or negative samples.
-    Numerics,
-    /// The hand-in took too long.
-    Timeout,
-    /// It panicked or its process died.
-    Crash,
-    /// It answered with what was not asked for.
-    Violation,
-    /// The harness failed.
-    Harness,
-}
-
-impl CheckResult {
-    /// True if it was run and did not pass.
-    pub fn is_lacking(&self) -> bool {
-        !matches!(self.verdict, Verdict::Pass | Verdict::LeftOut)
-    }
-}
-
-/// A check that was not run.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LeftOut {
-    /// Which.
-    pub check: String,
-    /// In which scene.
-    pub scene: String,
-    /// Why it would mean nothing there.
-    pub why: String,
 }
 
 /// A likely cause.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Diagnosis {
-    /// Its name in the catalogue of causes, or `unknown`.
-    pub mistake: String,
-    /// What it is.
-    pub title: String,
-    /// How sure that is among all mistakes that are known, in [0, 1].
+    /// What is probably wrong.
+    pub cause: Cause,
+    /// Probability among all known mistakes, in [0, 1].
     pub confidence: f64,
-    /// What was observed.
-    pub evidence: String,
-    /// What to think about.
-    pub hint: String,
+    /// The checks that decided, where the cause does not say it by itself.
+    pub seen: Option<SeenIn>,
 }
 
-impl Diagnosis {
-    /// The line that stands above evidence and hint, which are both empty if the cause is unknown.
-    pub fn heading(&self) -> String {
-        if self.mistake == UNKNOWN {
-            self.title.clone()
-        } else if self.confidence < 0.995 {
-            format!("Likely cause ({:.0} % sure): {}", 100.0 * self.confidence, self.title)
-        } else {
-            format!("Likely cause: {}", self.title)
+/// What is probably wrong.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Cause {
+    /// A mistake that the assignment knows, in the words of its `causes.yml`.
+    Known {
+        /// Its name.
+        id: String,
+        /// What it is.
+        title: String,
+        /// What to think about.
+        hint: String,
+    },
+    /// No mistake fits, or several do.
+    Unknown {
+        /// True if several fit.
+        several_fit: bool,
+    },
+    /// There was nothing to compile.
+    NothingToCompile,
+    /// The file does not compile.
+    DoesNotCompile,
+    /// The program panics.
+    Panics,
+    /// It reaches a place that is marked as still to be done.
+    TodoLeft,
+    /// It does not finish in time.
+    DoesNotFinish {
+        /// Checks that were not done in time.
+        late: usize,
+    },
+    /// Each light sample is the same factor too bright or too dark in all of these scenes.
+    ConstantFactor {
+        /// The factor.
+        factor: f64,
+        /// The scenes.
+        scenes: Vec<String>,
+    },
+    /// It is the starting file.
+    NotBegun,
+    /// Nothing in it asks for MIS.
+    MisNotBegun,
+}
+
+impl Cause {
+    /// Its name in tables.
+    pub fn id(&self) -> &str {
+        match self {
+            Self::Known { id, .. } => id,
+            Self::Unknown { .. } => "unknown",
+            Self::NothingToCompile => "nothing-to-compile",
+            Self::DoesNotCompile => "does-not-compile",
+            Self::Panics => "panics",
+            Self::TodoLeft => "todo-left",
+            Self::DoesNotFinish { .. } => "does-not-finish",
+            Self::ConstantFactor { .. } => "constant-factor",
+            Self::NotBegun => "not-begun",
+            Self::MisNotBegun => "mis-not-begun",
         }
     }
 }
 
-/// The name of the cause that is not known.
-pub const UNKNOWN: &str = "unknown";
-
-/// Samples that were no radiance, over all checks.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Numerics {
-    /// NaN or infinite.
-    pub non_finite: u64,
-    /// Finite but negative.
-    pub negative: u64,
+/// Checks that speak for a cause.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SeenIn {
+    /// One that is wrong as the cause would have it.
+    pub wrong: CheckId,
+    /// One that passes where other causes would not.
+    pub right: Option<CheckId>,
 }
 
 /// Where the time went, in seconds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Cost {
-    /// Making the framework, the scenes and their references ready.
+    /// Preparing the framework, the scenes and their references.
     pub framework: f64,
-    /// Compiling the hand-in.
+    /// Compiling the submission.
     pub build: f64,
-    /// Running it.
+    /// Running its checks.
     pub run: f64,
     /// Everything.
     pub total: f64,
 }
 
-/// How the hand-in was confined.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// How the submission was confined.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Sandbox {
-    /// How well, in one word: what compiler and host have in common.
+    /// What compiler and program have in common, in one word.
     pub level: Level,
-    /// What is missing for the best level, in a sentence; empty if nothing is.
-    pub missing: String,
     /// What held for rustc.
     pub compiler: Layers,
-    /// What held for the program, as it found out itself before any code of the hand-in ran. For a hand-in that does
-    /// not compile, what this machine has.
+    /// What held for the program. For a submission that does not compile, what this machine has.
     pub host: Layers,
-    /// What the hand-in names that the sandbox refuses. It costs no points by itself.
+    /// What the source names that the sandbox refuses. It costs no points by itself.
     pub findings: Vec<SourceFinding>,
 }
 
 impl Sandbox {
-    /// What these layers come to.
+    /// The level that these layers come to.
     pub fn new(compiler: Layers, host: Layers, findings: Vec<SourceFinding>) -> Self {
-        let layers = both(compiler, host);
-        Self { level: Level::of(layers), missing: missing(layers).join(", "), compiler, host, findings }
+        Self { level: Level::of(compiler.and(host)), compiler, host, findings }
     }
 }
 
+/// What the grade rests on.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Provenance {
+    /// The assignment as it was asked for: a name, or a folder.
+    pub assignment: String,
+    /// Version of the grader.
+    pub grader: String,
+    /// BLAKE3 of all that the framework is built from.
+    pub framework: String,
+    /// BLAKE3 of the rubric.
+    pub rubric: String,
+    /// BLAKE3 of the references.
+    pub references: String,
+    /// Seed of the grade.
+    pub seed: u64,
+    /// The compiler, as it names itself.
+    pub toolchain: String,
+    /// Threads of the submission.
+    pub threads: usize,
+}
+
 impl Report {
-    /// The checks that a task lacks: first what is known to be wrong, of that what no points are without, then what is
-    /// only not known to be right. Checks that were not run, since nothing depended on them any more, are not among
-    /// them.
+    /// The checks that a task lacks: first what is known to be wrong, of that what must pass for any points, then what is
+    /// only not known to be right.
     pub fn lacking(&self, task: &str) -> Vec<&CheckResult> {
         let mut lacking: Vec<&CheckResult> =
             self.checks.iter().filter(|check| check.task == task && check.is_lacking()).collect();
-        lacking.sort_by_key(|check| (check.verdict == Verdict::Inconclusive, !check.evidence));
+        lacking.sort_by_key(|check| (check.verdict == Verdict::Inconclusive, !check.required));
         lacking
+    }
+
+    /// The result of a check.
+    pub fn check(&self, id: &CheckId) -> Option<&CheckResult> {
+        self.checks.iter().find(|check| check.id == *id)
     }
 
     /// Reads what [`Self::save`] has written.
@@ -378,18 +315,26 @@ impl Report {
     /// # Errors
     /// If it is no report of this version.
     pub fn load(path: &Path) -> Result<Self> {
-        let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
-        let report: Self = serde_json::from_slice(&bytes)
-            .map_err(|error| Error::file(path, format!("is no report of the grader: {error}")))?;
-        if report.schema == SCHEMA {
-            Ok(report)
-        } else {
-            Err(Error::file(path, format!("is a report of another version, not {SCHEMA}")))
+        #[derive(Deserialize)]
+        struct Version {
+            schema: String,
         }
+        let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
+        let refuse =
+            |error: serde_json::Error| Error::file(path, format!("not a report of the grader: {error}"));
+        let Version { schema } = serde_json::from_slice(&bytes).map_err(refuse)?;
+        if schema != SCHEMA {
+            return Err(Error::file(path, format!("a report of format {schema}, not {SCHEMA}: grade again")));
+        }
+        serde_json::from_slice(&bytes).map_err(refuse)
     }
 
     /// Writes the report as JSON.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
     pub fn save(&self, path: &Path) -> Result<()> {
-        Ok(arty::image::write_aside(path, |writer| serde_json::to_writer_pretty(writer, self))?)
+        arty::image::write_aside(path, |writer| serde_json::to_writer_pretty(writer, self))
+            .map_err(|error| Error::Output(error.to_string()))
     }
 }

@@ -1,32 +1,65 @@
 //! A report for the tests of all formats.
 
-use std::collections::BTreeMap;
-
 use arty::integrator::Technique;
 
+use crate::check::{
+    BounceEnergy, CheckId, CheckKind, CheckResult, Effect, Evidence, FurnaceTest, MeanTest, Numerics, Reason,
+    RegionId, RegionKind, Verdict, Visibility, WhyNot,
+};
 use crate::pictures::Picture;
 use crate::report::{
-    CheckResult, Cost, Diagnosis, LeftOut, Numerics, Points, Reason, Report, SCHEMA, Sandbox, SubmissionInfo,
-    TaskResult, Verdict,
+    Cause, Cost, Diagnosis, Points, Provenance, Report, SCHEMA, Sandbox, SeenIn, SkippedCheck,
+    SubmissionInfo, TaskResult, TaskState,
 };
-use crate::rubric::CheckKind;
+use crate::rubric::EmissionOnHit;
 use crate::sandbox::Layers;
 use crate::submission::SourceFinding;
 
 /// What someone might put anywhere that they can.
 pub const EVIL: &str = "<script>alert(1)</script>\"'&|\n::error file=x::y\u{1b}[31m\u{7}\u{0}]]>```%0A,:![x](https://x.y) @z\u{fffe}";
 
-/// A report with one task that failed, one that a person marks, and a text wherever one can stand.
+/// A check with technique `nee` and eight bounces.
+pub fn id(kind: CheckKind, scene: &str) -> CheckId {
+    CheckId {
+        kind,
+        scene: scene.to_owned(),
+        technique: Technique::Nee,
+        max_bounces: 8,
+        emission_on_hit: EmissionOnHit::On,
+    }
+}
+
+/// A mean that is 12.5 % too dark.
+pub fn mean_test() -> MeanTest {
+    MeanTest {
+        region: RegionId { kind: RegionKind::Weighted, pixels: None },
+        effect: Some(-0.125),
+        interval: Some([-0.13, -0.12]),
+        detectable: Some(0.01),
+        tolerance: 0.02,
+        whole: Some(Effect { relative: -0.125, margin: 0.005 }),
+        z: Vec::new(),
+    }
+}
+
+/// A furnace in which the first bounce brings half of what it should.
+pub fn furnace_test() -> FurnaceTest {
+    let energy = |relative| BounceEnergy { relative, margin: Some(0.01) };
+    FurnaceTest { test: mean_test(), max_bounces: 1, energy: vec![energy(1.0), energy(0.5)] }
+}
+
+/// A report with one task that failed, one that a tutor grades, and a text wherever one can stand.
 pub fn report(text: &str) -> Report {
     let text = || text.to_owned();
-    let task = |id: &str, points: Option<f64>, max| TaskResult {
+    let check = id(CheckKind::MeanBias, &text());
+    let task = |id: &str, points: Option<f64>, max, state| TaskResult {
         id: id.to_owned(),
         title: text(),
         points,
         max,
-        elsewhere: 0.0,
-        checks: if points.is_some() { vec![text()] } else { Vec::new() },
-        reason: text(),
+        staff_only: 0.0,
+        checks: if points.is_some() { vec![check.clone()] } else { Vec::new() },
+        state,
     };
     Report {
         schema: SCHEMA.to_owned(),
@@ -44,53 +77,47 @@ pub fn report(text: &str) -> Report {
             automatic_max: 70.0,
             manual_max: 10.0,
             max: 80.0,
-            elsewhere: 0.0,
-            marked: None,
+            staff_only: 0.0,
+            manual: None,
         },
-        tasks: vec![task("5.1a", Some(12.5), 20.0), task("5.2a", None, 10.0)],
+        tasks: vec![
+            task("5.1a", Some(12.5), 20.0, TaskState::Graded { missing: vec![check.clone()] }),
+            task("5.2a", None, 10.0, TaskState::ByHand { comment: None }),
+        ],
         checks: vec![CheckResult {
-            id: text(),
-            check: CheckKind::MeanBias,
-            scene: text(),
+            id: check.clone(),
             task: "5.1a".to_owned(),
-            technique: Technique::Nee,
-            max_bounces: 8,
-            evidence: true,
+            required: true,
+            visibility: Visibility::Public,
             verdict: Verdict::Fail,
             reason: Reason::Bias,
-            explanation: text(),
-            effect: Some(-0.125),
-            interval: Some([-0.13, -0.12]),
-            detectable: Some(0.01),
+            fault: None,
+            evidence: Some(Evidence::MeanBias(mean_test())),
+            numerics: Numerics::default(),
+            short_look: false,
             samples: 4096,
             seconds: 0.5,
-            non_finite: 0,
-            negative: 0,
-            weights: None,
-            coefficients: vec![1.0, 0.5],
-            coefficient_margins: vec![0.01, 0.02],
-            variance_ratios: Vec::new(),
-            details: BTreeMap::new(),
-            remarks: vec![text()],
-            z: Vec::new(),
-            repeat: text(),
         }],
-        left_out: vec![LeftOut { check: text(), scene: text(), why: text() }],
+        skipped: vec![SkippedCheck {
+            kind: CheckKind::Efficiency,
+            technique: Technique::Nee,
+            scene: text(),
+            check: None,
+            why: WhyNot::OneTechnique,
+        }],
         diagnosis: vec![Diagnosis {
-            mistake: text(),
-            title: text(),
+            cause: Cause::Known { id: text(), title: text(), hint: text() },
             confidence: 0.5,
-            evidence: text(),
-            hint: text(),
+            seen: Some(SeenIn { wrong: check, right: None }),
         }],
         numerics: Numerics::default(),
         cost: Cost::default(),
         sandbox: Sandbox::new(
             Layers::default(),
             Layers::default(),
-            vec![SourceFinding { reason: Reason::Violation, line: 1, what: text(), why: text() }],
+            vec![SourceFinding { line: 1, what: text(), why: text() }],
         ),
-        provenance: BTreeMap::from([(text(), text())]),
+        provenance: Provenance { toolchain: text(), assignment: text(), ..Provenance::default() },
         convergence: None,
         images: Vec::new(),
     }

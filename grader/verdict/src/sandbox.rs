@@ -1,9 +1,12 @@
 //! How good a sandbox is, in one word.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How well a hand-in is confined. Later ones are better.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, clap::ValueEnum)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema, clap::ValueEnum,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum Level {
     /// A process of its own, and nothing more.
@@ -17,7 +20,7 @@ pub enum Level {
 }
 
 /// The layers of a sandbox that are in force.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Layers {
     /// The version of Landlock's interface; 0 if files are not locked away.
     pub landlock: u32,
@@ -58,33 +61,17 @@ impl std::fmt::Display for Level {
     }
 }
 
-/// What holds both here and there.
-pub fn both(one: Layers, other: Layers) -> Layers {
-    Layers {
-        landlock: one.landlock.min(other.landlock),
-        seccomp: one.seccomp && other.seccomp,
-        limits: one.limits && other.limits,
-        unprivileged: one.unprivileged && other.unprivileged,
+impl Layers {
+    /// What holds both here and there.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            landlock: self.landlock.min(other.landlock),
+            seccomp: self.seccomp && other.seccomp,
+            limits: self.limits && other.limits,
+            unprivileged: self.unprivileged && other.unprivileged,
+        }
     }
-}
-
-/// What is missing for the best level, in words; empty if nothing is.
-pub fn missing(layers: Layers) -> Vec<&'static str> {
-    let Layers { landlock, seccomp, limits, unprivileged } = layers;
-    let mut missing = Vec::new();
-    if landlock == 0 {
-        missing.push("files are not locked away (Landlock)");
-    }
-    if !seccomp {
-        missing.push("system calls are not filtered (seccomp)");
-    }
-    if !limits {
-        missing.push("memory is not limited");
-    }
-    if !unprivileged && cfg!(target_os = "linux") {
-        missing.push("it runs as root");
-    }
-    missing
 }
 
 #[cfg(test)]
@@ -95,15 +82,13 @@ mod tests {
     fn each_missing_layer_costs_a_level() {
         let all = Layers { landlock: 7, seccomp: true, limits: true, unprivileged: true };
         assert_eq!(Level::of(all), Level::Strong);
-        assert!(missing(all).is_empty());
         for one in [
             Layers { landlock: 0, ..all },
             Layers { seccomp: false, ..all },
             Layers { unprivileged: false, ..all },
         ] {
             assert_eq!(Level::of(one), Level::Medium, "{one:?}");
-            assert_eq!(missing(one).len(), 1, "{one:?}");
-            assert_eq!(both(all, one), one);
+            assert_eq!(all.and(one), one);
         }
         assert_eq!(Level::of(Layers { landlock: 0, seccomp: false, ..all }), Level::Weak);
         assert_eq!(Level::of(Layers { limits: false, ..all }), Level::None);

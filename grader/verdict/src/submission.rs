@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
-use crate::report::Reason;
 
 /// The name of the one file that counts.
 pub const FILE_NAME: &str = "render_pt.rs";
@@ -36,7 +36,7 @@ impl Submission {
 }
 
 /// Why a hand-in does not compile.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BuildFailure {
     /// rustc's messages as it shows them on a terminal without colours; lines are those of the hand-in.
     pub messages: String,
@@ -45,7 +45,7 @@ pub struct BuildFailure {
 }
 
 /// What kind of file an explanation is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ExplanationKind {
     /// `.txt` or `.md`: its text is kept.
@@ -55,7 +55,7 @@ pub enum ExplanationKind {
 }
 
 /// A written explanation.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Explanation {
     /// Its name in the hand-in.
     pub name: String,
@@ -70,7 +70,7 @@ pub struct Explanation {
 }
 
 /// A note or refusal as it is stored: a code and a sentence.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct IntakeFinding {
     /// In kebab-case, as `missing-file`.
     pub code: String,
@@ -79,10 +79,8 @@ pub struct IntakeFinding {
 }
 
 /// Something that a hand-in names.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct SourceFinding {
-    /// [`Reason::Violation`].
-    pub reason: Reason,
     /// The line of the hand-in, counted from 1.
     pub line: usize,
     /// What stands there, as in `std::fs`.

@@ -1,7 +1,9 @@
 //! One check of a task, as a rubric names it.
 
 use arty::integrator::Technique;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
+
+use crate::check::{CheckId, CheckKind, Visibility};
 
 /// One check of a task.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -18,26 +20,51 @@ pub struct CheckSpec {
     pub max_bounces: u32,
     /// `off` if lights that a path hits emit nothing, so that only next event estimation finds light.
     #[serde(default)]
-    pub hits: Hits,
+    pub emission_on_hit: EmissionOnHit,
     /// How many shares of the task's points it carries.
     #[serde(default = "one")]
     pub weight: f64,
-    /// True if the task earns nothing without it: an untouched starting file must fail such a check.
+    /// True if it must pass for any points in the task: an untouched starting file must fail such a check.
     #[serde(default)]
-    pub evidence: bool,
+    pub required: bool,
     /// The relative error of the whole image's mean that a pass excludes.
     #[serde(default = "two_percent")]
     pub tolerance: f64,
+    #[serde(default, rename = "evidence", deserialize_with = "renamed_to_required")]
+    _evidence: (),
+    #[serde(default, rename = "hits", deserialize_with = "renamed_to_emission_on_hit")]
+    _hits: (),
+}
+
+fn renamed_to_required<'de, D: Deserializer<'de>>(_: D) -> Result<(), D::Error> {
+    Err(serde::de::Error::custom("`evidence` is now called `required`"))
+}
+
+fn renamed_to_emission_on_hit<'de, D: Deserializer<'de>>(_: D) -> Result<(), D::Error> {
+    Err(serde::de::Error::custom("`hits` is now called `emission_on_hit`"))
 }
 
 /// The name that stands for the scene of checks that make their own.
 pub const SCRIPTED: &str = "scripted";
 
 /// Whether lights that a path hits emit anything.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    Hash,
+    Serialize,
+    Deserialize,
+    schemars::JsonSchema,
+)]
 #[serde(rename_all = "lowercase")]
-pub enum Hits {
-    /// They do not: what is left is next event estimation alone.
+pub enum EmissionOnHit {
+    /// They do not: only next event estimation finds light.
     Off,
     /// They do, as ever.
     #[default]
@@ -49,84 +76,8 @@ pub enum Hits {
 pub struct View {
     /// The largest number of bounces.
     pub max_bounces: u32,
-    /// Whether lights that are hit count.
-    pub hits: Hits,
-}
-
-/// The kinds of checks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum CheckKind {
-    /// Means against formulas for each pixel.
-    ClosedForm,
-    /// Noise against that of other techniques.
-    Efficiency,
-    /// Means in scenes that are drawn at random, against the solution.
-    HiddenVariants,
-    /// Whether lights are picked as often as is divided by.
-    LightPick,
-    /// Means against a reference image.
-    MeanBias,
-    /// Means in scenes that are changed in ways that must not show.
-    Metamorphic,
-    /// The weights of multiple importance sampling, one by one; `max_bounces` is the longest path that is looked at.
-    MisWeights,
-    /// Whether pixels, batches and seeds are independent.
-    Randomness,
-    /// How many rays a path takes; `max_bounces` is the longest path that is looked at.
-    RayBudget,
-    /// Scenes and densities at the ends of what numbers can be.
-    Stability,
-    /// Means against the closed form of a uniformly emitting enclosure.
-    WhiteFurnace,
-}
-
-impl CheckKind {
-    /// All of them, by name.
-    pub const ALL: [Self; 11] = [
-        Self::ClosedForm,
-        Self::Efficiency,
-        Self::HiddenVariants,
-        Self::LightPick,
-        Self::MeanBias,
-        Self::Metamorphic,
-        Self::MisWeights,
-        Self::Randomness,
-        Self::RayBudget,
-        Self::Stability,
-        Self::WhiteFurnace,
-    ];
-
-    /// Its name in rubrics, reports and on command lines.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::ClosedForm => "closed-form",
-            Self::Efficiency => "efficiency",
-            Self::HiddenVariants => "hidden-variants",
-            Self::LightPick => "light-pick",
-            Self::MeanBias => "mean-bias",
-            Self::Metamorphic => "metamorphic",
-            Self::MisWeights => "mis-weights",
-            Self::Randomness => "randomness",
-            Self::RayBudget => "ray-budget",
-            Self::Stability => "stability",
-            Self::WhiteFurnace => "white-furnace",
-        }
-    }
-
-    /// True if it asks whether what is right in known scenes is right in others, too: it says nothing new of a hand-in
-    /// that is wrong in those.
-    pub fn goes_further(self) -> bool {
-        matches!(self, Self::HiddenVariants | Self::Metamorphic | Self::Stability)
-    }
-
-    /// True if it is looked at in a scene of the collection.
-    pub fn needs_scene(self) -> bool {
-        !matches!(
-            self,
-            Self::HiddenVariants | Self::LightPick | Self::MisWeights | Self::RayBudget | Self::Stability
-        )
-    }
+    /// Whether lights that are hit emit anything.
+    pub emission_on_hit: EmissionOnHit,
 }
 
 impl CheckSpec {
@@ -137,22 +88,34 @@ impl CheckSpec {
             scene: scripted(),
             technique,
             max_bounces,
-            hits: Hits::On,
+            emission_on_hit: EmissionOnHit::On,
             weight: one(),
-            evidence: false,
+            required: false,
             tolerance: two_percent(),
+            _evidence: (),
+            _hits: (),
         }
     }
 
-    /// What tells this check from all others: `mean-bias/cornell_box/nee/8`.
-    pub fn id(&self) -> String {
-        let hits = if self.hits == Hits::Off { "/hits-off" } else { "" };
-        format!("{}/{}/{}/{}{hits}", self.check.name(), self.scene, self.technique, self.max_bounces)
+    /// Its identity.
+    pub fn id(&self) -> CheckId {
+        CheckId {
+            kind: self.check,
+            scene: self.scene.clone(),
+            technique: self.technique,
+            max_bounces: self.max_bounces,
+            emission_on_hit: self.emission_on_hit,
+        }
+    }
+
+    /// Who may see it.
+    pub fn visibility(&self) -> Visibility {
+        Visibility::of(self.check, &self.scene)
     }
 
     /// Which light its pictures show.
     pub fn view(&self) -> View {
-        View { max_bounces: self.max_bounces, hits: self.hits }
+        View { max_bounces: self.max_bounces, emission_on_hit: self.emission_on_hit }
     }
 
     /// The techniques of which a reference has to know the noise.
@@ -164,7 +127,7 @@ impl CheckSpec {
         }
     }
 
-    /// Says what is wrong with it, if anything is.
+    /// What is wrong with it whatever its kind means, if anything is.
     pub(super) fn validate(&self) -> Result<(), String> {
         if !(self.weight.is_finite() && self.weight > 0.0) {
             return Err("`weight` must be a positive number".to_owned());
@@ -172,27 +135,6 @@ impl CheckSpec {
         if self.check.needs_scene() == (self.scene == SCRIPTED) {
             let what = if self.check.needs_scene() { "needs a `scene`" } else { "takes no `scene`" };
             return Err(what.to_owned());
-        }
-        let by_means = matches!(self.check, CheckKind::MeanBias | CheckKind::ClosedForm);
-        if self.hits == Hits::Off && !(by_means && self.technique == Technique::Nee) {
-            return Err("`hits: off` goes with mean-bias and closed-form, and with nee only".to_owned());
-        }
-        let few_bounces = (1..=3).contains(&self.max_bounces);
-        if self.check == CheckKind::MisWeights && (self.technique != Technique::Mis || !few_bounces) {
-            return Err("mis-weights goes with the technique mis and 1 to 3 bounces only".to_owned());
-        }
-        if self.check == CheckKind::RayBudget && (self.technique == Technique::Bsdf || !few_bounces) {
-            return Err("ray-budget goes with the techniques nee and mis and 1 to 3 bounces only".to_owned());
-        }
-        if self.check == CheckKind::LightPick && (self.technique == Technique::Bsdf || self.max_bounces != 1)
-        {
-            return Err("light-pick goes with the techniques nee and mis and 1 bounce only".to_owned());
-        }
-        if self.check == CheckKind::Stability && self.technique == Technique::Bsdf {
-            return Err("stability goes with the techniques nee and mis only".to_owned());
-        }
-        if self.check == CheckKind::Efficiency && self.technique == Technique::Bsdf {
-            return Err("efficiency goes with the techniques nee and mis only".to_owned());
         }
         if !(self.tolerance > 0.0 && self.tolerance < 1.0) {
             return Err("`tolerance` must be between 0 and 1".to_owned());

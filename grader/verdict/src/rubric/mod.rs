@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 mod check;
 mod rules;
 
-pub use check::{CheckKind, CheckSpec, Hits, SCRIPTED, View, rivals};
+pub use check::{CheckSpec, EmissionOnHit, SCRIPTED, View, rivals};
 pub use rules::{LateRule, Md5Rule, Rules, zone};
 
 /// The contents of `rubric.yml`.
@@ -68,9 +68,9 @@ impl Rubric {
             if task.manual != task.checks.is_empty() {
                 return Err(format!("task {id}: either `manual: true` or a list of `checks`"));
             }
-            if !task.manual && !task.checks.iter().any(|check| check.evidence) {
+            if !task.manual && !task.checks.iter().any(|check| check.required) {
                 return Err(format!(
-                    "task {id}: at least one check with `evidence: true`, or an untouched file earns points"
+                    "task {id}: at least one check with `required: true`, or an untouched file earns points"
                 ));
             }
             for required in &task.requires {
@@ -134,24 +134,25 @@ mod tests {
         };
         for (text, expected) in [
             (task("manual: false"), "either `manual: true` or a list of `checks`"),
-            (task(&format!("checks: [{CHECK}}}]")), "evidence: true"),
-            (task(&format!("checks: [{CHECK}, evidence: true, weight: -1}}]")), "`weight` must be"),
-            (task(&format!("checks: [{CHECK}, evidence: true, tolerance: 2}}]")), "`tolerance` must be"),
-            (task(&format!("checks: [{CHECK}, evidence: true, colour: 2}}]")), "rubric.yml:4: "),
+            (task(&format!("checks: [{CHECK}}}]")), "required: true"),
+            (task(&format!("checks: [{CHECK}, required: true, weight: -1}}]")), "`weight` must be"),
+            (task(&format!("checks: [{CHECK}, required: true, tolerance: 2}}]")), "`tolerance` must be"),
+            (task(&format!("checks: [{CHECK}, required: true, colour: 2}}]")), "rubric.yml:4: "),
+            (task(&format!("checks: [{CHECK}, evidence: true}}]")), "`evidence` is now called `required`"),
             (
-                task("checks: [{check: mis-weights, technique: nee, max_bounces: 3, evidence: true}]"),
-                "the technique mis",
+                task(&format!("checks: [{CHECK}, required: true, hits: off}}]")),
+                "`hits` is now called `emission_on_hit`",
             ),
             (
-                task("checks: [{check: mean-bias, technique: nee, max_bounces: 3, evidence: true}]"),
+                task("checks: [{check: mean-bias, technique: nee, max_bounces: 3, required: true}]"),
                 "needs a `scene`",
             ),
-            (task(&format!("checks: [{CHECK}, evidence: true, hits: no}}]")), "rubric.yml:4: "),
+            (task(&format!("checks: [{CHECK}, required: true, emission_on_hit: no}}]")), "rubric.yml:4: "),
             ("tasks: [".to_owned(), "rubric.yml:"),
         ] {
             let message = load(&text).expect_err(expected);
             assert!(message.contains(expected), "{message}");
         }
-        assert!(load(&task(&format!("checks: [{CHECK}, evidence: true}}]"))).is_ok());
+        assert!(load(&task(&format!("checks: [{CHECK}, required: true}}]"))).is_ok());
     }
 }
