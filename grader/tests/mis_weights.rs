@@ -93,7 +93,7 @@ fn a_forgotten_pick_probability_is_named() {
 fn a_shadow_ray_that_is_an_ordinary_ray_passes() {
     let change = (
         "scene.occluded(hit, sample.point)",
-        "scene.intersect(&hit.spawn(wi)).is_some_and(|other| direction(hit.point, other.point).1 < 0.999 * distance)",
+        "scene.intersect(&hit.spawn(wi)).is_some_and(|other| direction_and_distance(hit.point, other.point).1 < 0.999 * distance)",
     );
     passes(&[change], "balance heuristic");
 }

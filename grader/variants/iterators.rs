@@ -51,7 +51,7 @@ impl Integrator for PathTracer {
                     .and_then(|light| Some((light, light.sample_direct(hit.point, sampler)?)))
                     .filter(|(_, sample)| !scene.occluded(&hit, sample.point))
                     .map(|(light, sample)| {
-                        let (wi, distance) = direction(hit.point, sample.point);
+                        let (wi, distance) = direction_and_distance(hit.point, sample.point);
                         let p_ne = sample.pdf_area * distance * distance / (sample.cos * count);
                         let against = light.has_area() && self.technique == Technique::Mis;
                         let p_brdf = if against { bsdf.pdf(wi) } else { 0.0 };

@@ -66,7 +66,7 @@ impl PathTracer {
             Some((light, pick)) => match light.sample_direct(hit.point, sampler) {
                 None => {}
                 Some(sample) => {
-                    let (wi, distance) = direction(hit.point, sample.point);
+                    let (wi, distance) = direction_and_distance(hit.point, sample.point);
                     match scene.occluded(hit, sample.point) {
                         true => {}
                         false => {

@@ -67,7 +67,7 @@ impl PathTracer {
         if self.settings.technique == Technique::Nee {
             return Rgb::BLACK;
         }
-        let (_, d) = direction(previous.point, hit.point);
+        let (_, d) = direction_and_distance(previous.point, hit.point);
         let p_light = emission.pdf_area / scene.lights().len() as f32 * d * d / emission.cos;
         emission.radiance * (previous.pdf / (previous.pdf + p_light))
     }
@@ -85,7 +85,7 @@ impl PathTracer {
         if scene.occluded(hit, sample.point) {
             return Rgb::BLACK;
         }
-        let (wi, d) = direction(hit.point, sample.point);
+        let (wi, d) = direction_and_distance(hit.point, sample.point);
         let bsdf = hit.bsdf();
         let geometry = hit.cos(wi) * sample.cos / (d * d);
         let mut result = bsdf.eval(wi) * sample.intensity * geometry * n as f32 / sample.pdf_area;

@@ -20,7 +20,7 @@ impl PathTracer {
 
         let light = &scene.lights()[(sampler.next_1d() * count as f32) as usize % count];
         if let Some(sample) = light.sample_direct(hit.point, sampler) {
-            let (wi, distance) = direction(hit.point, sample.point);
+            let (wi, distance) = direction_and_distance(hit.point, sample.point);
             if !scene.occluded(hit, sample.point) {
                 let pdf = sample.pdf_area * distance * distance / sample.cos / count as f32;
                 let weight =
@@ -32,7 +32,7 @@ impl PathTracer {
         if mis && let Some(sample) = bsdf.sample(sampler) && !sample.is_delta {
             if let Some(other) = scene.intersect(&hit.spawn(sample.wi)) && let Some(light) = other.light() {
                 let emission = light.emission(&other);
-                let (_, distance) = direction(hit.point, other.point);
+                let (_, distance) = direction_and_distance(hit.point, other.point);
                 let pdf = emission.pdf_area * distance * distance / emission.cos / count as f32;
                 let weight = sample.pdf / (sample.pdf + pdf);
                 sum += sample.f * emission.radiance * (sample.cos / sample.pdf * weight);

@@ -1,6 +1,6 @@
 //! The camera.
 
-use crate::math::{Vec3, direction};
+use crate::math::{Vec3, direction_and_distance};
 use crate::ray::Ray;
 use crate::scene::CameraDescription;
 
@@ -20,9 +20,10 @@ impl Camera {
     /// The camera for images of `width × height` square pixels. The field of view spans the width.
     pub fn new(description: &CameraDescription, width: u32, height: u32) -> Self {
         let CameraDescription { eye, center, up, fov } = *description;
-        let forward = direction(eye, center).0;
+        let forward = direction_and_distance(eye, center).0;
         // Both are unit vectors, so that no length of `up` over- or underflows in their product.
-        let right = direction(Vec3::ZERO, forward.cross(direction(Vec3::ZERO, up).0)).0;
+        let right =
+            direction_and_distance(Vec3::ZERO, forward.cross(direction_and_distance(Vec3::ZERO, up).0)).0;
         let down = forward.cross(right);
         let half_width = (0.5 * fov).to_radians().tan();
         let pixel = 2.0 * half_width / width as f32;

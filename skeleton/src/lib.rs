@@ -30,8 +30,8 @@ pub mod bsdf;
 pub mod camera;
 #[cfg(feature = "cli")]
 pub mod cli;
+mod dedup;
 pub mod film;
-mod firsts;
 #[cfg(feature = "files")]
 pub mod image;
 pub mod integrator;

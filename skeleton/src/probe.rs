@@ -21,7 +21,7 @@ use std::cell::Cell;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::bsdf::BsdfSample;
-use crate::math::{Rgb, Vec3, direction};
+use crate::math::{Rgb, Vec3, direction_and_distance};
 
 pub(crate) use record::record;
 pub use record::{Call, Recording, Value, start_recording, take_recording};
@@ -105,7 +105,7 @@ impl ScriptedBsdf {
     /// The same at a point of a surface.
     #[inline]
     pub(crate) fn seen_from(&self, point: Vec3) -> ScriptedLobe {
-        let (wi, _) = direction(point, self.target);
+        let (wi, _) = direction_and_distance(point, self.target);
         ScriptedLobe { wi, f: self.f, pdf: self.pdf, is_delta: self.is_delta }
     }
 }

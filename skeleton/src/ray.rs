@@ -10,7 +10,7 @@ pub struct Ray {
     /// Where it goes; a unit vector, so that t is a distance in scene units.
     pub direction: Vec3,
     /// The triangle that it leaves and does not hit, if it was spawned, in whatever direction it is turned later.
-    pub(crate) leaves: Option<u32>,
+    pub(crate) exclude: Option<u32>,
 }
 
 impl Ray {
@@ -20,6 +20,6 @@ impl Ray {
     /// that surface again.
     #[inline]
     pub fn new(origin: Vec3, direction: Vec3) -> Self {
-        Self { origin, direction, leaves: None }
+        Self { origin, direction, exclude: None }
     }
 }

@@ -6,7 +6,7 @@ mod common;
 use std::f64::consts::PI;
 
 use arty::light::Light;
-use arty::math::{Rgb, Vec3, direction};
+use arty::math::{Rgb, Vec3, direction_and_distance};
 use arty::ray::Ray;
 use arty::sampler::Sampler;
 use arty::scene::{LightDescription, Material, Scene};
@@ -151,7 +151,7 @@ fn points_on_a_triangle_come_with_their_density_and_cosine() {
             assert!((q - p).cross(sample.point - p).dot(normal) > -1e-6, "within its edges");
         }
         assert!((sample.pdf_area * area - 1.0).abs() < 1e-6);
-        let cos = normal.dot(direction(sample.point, from).0);
+        let cos = normal.dot(direction_and_distance(sample.point, from).0);
         assert!((sample.cos - cos).abs() < 1e-6 && sample.cos > 0.0 && sample.cos <= 1.0);
         assert_eq!(sample.intensity, Rgb::new(1.0, 2.0, 3.0));
     }
@@ -170,7 +170,9 @@ fn hitting_a_point_tells_the_same_as_drawing_it() {
         if sample.cos < 0.01 {
             continue;
         }
-        let Some(hit) = scene.intersect(&Ray::new(from, direction(from, sample.point).0)) else { continue };
+        let Some(hit) = scene.intersect(&Ray::new(from, direction_and_distance(from, sample.point).0)) else {
+            continue;
+        };
         let there = hit.light().expect("it is seen from its front");
         let emission = there.emission(&hit);
         assert_eq!((there.index(), emission.radiance), (light.index(), sample.intensity));

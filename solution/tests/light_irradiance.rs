@@ -9,7 +9,7 @@ mod common;
 use std::f64::consts::PI;
 
 use arty::light::Light;
-use arty::math::{Rgb, Vec3, direction};
+use arty::math::{Rgb, Vec3, direction_and_distance};
 use arty::ray::Ray;
 use arty::sampler::Sampler;
 use arty::scene::{LightDescription, Scene, SceneDescription};
@@ -27,7 +27,7 @@ fn by_asking(scene: &Scene, normal: Vec3, samples: u64, seed: u64) -> Estimate {
         let mut sampler = Sampler::new(seed, (0, 0), sample);
         let of_light = |light: &Light| {
             let Some(sample) = light.sample_direct(Vec3::ZERO, &mut sampler) else { return 0.0 };
-            let (wi, distance) = direction(Vec3::ZERO, sample.point);
+            let (wi, distance) = direction_and_distance(Vec3::ZERO, sample.point);
             let geometry =
                 f64::from(normal.dot(wi).max(0.0)) * f64::from(sample.cos) / f64::from(distance).powi(2);
             f64::from(sample.intensity.g) * geometry / f64::from(sample.pdf_area)

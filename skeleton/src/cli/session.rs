@@ -63,15 +63,15 @@ pub(super) fn render_scene(
 impl fmt::Display for Rendering {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let counts = || self.film.pixels().iter().map(|pixel| pixel.count);
-        let (fewest, most, all) = (self.film.samples(), counts().max().unwrap_or(0), counts().sum::<u64>());
+        let (min, max, all) = (self.film.samples(), counts().max().unwrap_or(0), counts().sum::<u64>());
         if self.interrupted {
             write!(f, "interrupted: ")?;
         }
-        if fewest < most {
-            write!(f, "{fewest} to ")?;
+        if min < max {
+            write!(f, "{min} to ")?;
         }
         let seconds = self.elapsed.as_secs_f64();
-        let samples = counted(most, "sample");
+        let samples = counted(max, "sample");
         write!(f, "{samples} per pixel in {seconds:.2} s, {}", speed(all as f64 / seconds.max(1e-9)))
     }
 }

@@ -1,7 +1,7 @@
 //! Lights under the grader's control (see [`crate::probe`]).
 
 use super::{DirectSample, Emission, Light, Shape};
-use crate::math::{Rgb, Vec3, direction};
+use crate::math::{Rgb, Vec3, direction_and_distance};
 use crate::probe::{Call, ScriptedLight, count, record};
 use crate::scene::Hit;
 
@@ -27,7 +27,7 @@ impl Light {
     #[inline]
     fn scripted_sample(&self, from: Vec3) -> Option<Option<DirectSample>> {
         let (Some(script), Shape::Triangle(light)) = (self.script, &self.shape) else { return None };
-        let cos = light.normal.dot(direction(script.point, from).0);
+        let cos = light.normal.dot(direction_and_distance(script.point, from).0);
         Some((cos > 0.0).then(|| DirectSample {
             point: script.point,
             intensity: light.radiance,

@@ -3,7 +3,7 @@
 use std::f32::consts::TAU;
 
 use super::DirectSample;
-use crate::math::{Rgb, Vec3, direction};
+use crate::math::{Rgb, Vec3, direction_and_distance};
 
 /// Intensity I₀ up to the inner angle, none from the outer angle on, and between them I₀ · s(t), with t running
 /// from 0 to 1 as the **cosine** goes from outer to inner, and s(t) = t² (3 − 2t).
@@ -22,7 +22,7 @@ impl SpotLight {
     /// Angles from the axis in degrees. The intensity follows from the power: over the cone's solid angle s has
     /// the mean ½, so that Φ = 2π I₀ (1 − (cos inner + cos outer) / 2).
     pub(crate) fn new(position: Vec3, axis: Vec3, inner: f32, outer: f32, power: Rgb) -> Self {
-        let axis = direction(Vec3::ZERO, axis).0;
+        let axis = direction_and_distance(Vec3::ZERO, axis).0;
         // 1 − cos x = 2 sin² (x / 2)
         let one_minus_cos = |degrees: f32| 2.0 * (0.5 * degrees).to_radians().sin().powi(2);
         let (inner, outer) = (one_minus_cos(inner), one_minus_cos(outer));
@@ -38,7 +38,7 @@ impl SpotLight {
 
     #[inline]
     pub(super) fn sample_direct(&self, from: Vec3) -> Option<DirectSample> {
-        let (w, distance) = direction(self.position, from);
+        let (w, distance) = direction_and_distance(self.position, from);
         if distance == 0.0 {
             return None; // the light itself asks: no direction, no way
         }

@@ -4,7 +4,7 @@ use std::f32::consts::PI;
 
 use super::{DirectSample, Emission};
 use crate::accel::point_on;
-use crate::math::{Rgb, Vec3, direction, warp};
+use crate::math::{Rgb, Vec3, direction_and_distance, warp};
 use crate::sampler::Sampler;
 
 #[derive(Clone, Debug)]
@@ -30,7 +30,7 @@ impl TriangleLight {
     #[inline]
     pub(super) fn sample_direct(&self, from: Vec3, sampler: &mut Sampler) -> Option<DirectSample> {
         let point = point_on(&self.vertices, warp::triangle(sampler.draw_2d()));
-        let (w, _) = direction(point, from);
+        let (w, _) = direction_and_distance(point, from);
         let cos = self.normal.dot(w);
         // A cosine of zero, or a point at no distance: nothing arrives.
         (cos > 0.0).then(|| DirectSample {

@@ -7,7 +7,7 @@ use glam::Vec3;
 /// Between equal points there is no direction: the result is then (0, 0, 0) and 0. The squares are taken after
 /// scaling by the largest coordinate, so that no distance that `f32` can hold over- or underflows on the way.
 #[inline]
-pub fn direction(from: Vec3, to: Vec3) -> (Vec3, f32) {
+pub fn direction_and_distance(from: Vec3, to: Vec3) -> (Vec3, f32) {
     let difference = to - from;
     let squared = difference.length_squared();
     if squared > 1e-30 && squared < 1e30 {
@@ -62,7 +62,7 @@ mod tests {
     fn direction_and_distance_hold_over_the_whole_range_of_f32() {
         for exponent in -36..=37 {
             let length = 10f32.powi(exponent);
-            let (wi, distance) = direction(Vec3::ZERO, length * Vec3::new(2.0, -1.0, 2.0));
+            let (wi, distance) = direction_and_distance(Vec3::ZERO, length * Vec3::new(2.0, -1.0, 2.0));
             assert!((wi - Vec3::new(2.0, -1.0, 2.0) / 3.0).length() < 1e-6, "1e{exponent}: {wi}");
             assert!((distance / (3.0 * length) - 1.0).abs() < 1e-6, "1e{exponent}: {distance}");
         }
@@ -70,7 +70,7 @@ mod tests {
 
     #[test]
     fn equal_points_have_no_direction() {
-        assert_eq!(direction(Vec3::ONE, Vec3::ONE), (Vec3::ZERO, 0.0));
+        assert_eq!(direction_and_distance(Vec3::ONE, Vec3::ONE), (Vec3::ZERO, 0.0));
     }
 
     #[test]

@@ -241,10 +241,10 @@ fn front_normal([a, b, c]: [Vec3; 3]) -> Option<Vec3> {
 /// nor hit the surface that they leave.
 fn precision_warning(corners: &[[Vec3; 3]]) -> Option<String> {
     let vertices = corners.as_flattened();
-    let least = vertices.iter().copied().reduce(Vec3::min)?.as_dvec3();
-    let greatest = vertices.iter().copied().reduce(Vec3::max)?.as_dvec3();
-    let size = (greatest - least).length();
-    let offset = (0.5 * (greatest + least)).length();
+    let min = vertices.iter().copied().reduce(Vec3::min)?.as_dvec3();
+    let max = vertices.iter().copied().reduce(Vec3::max)?.as_dvec3();
+    let size = (max - min).length();
+    let offset = (0.5 * (max + min)).length();
     if !(1e-4..=1e5).contains(&size) {
         return Some(format!("the scene is {size:.1e} units large; rays are reliable from 1e-4 to 1e5"));
     }

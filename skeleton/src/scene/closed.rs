@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::slice::ParallelSliceMut;
 
-use crate::firsts::firsts;
+use crate::dedup::dedup;
 use crate::math::Vec3;
 
 /// True if `eye` lies inside a surface without a hole.
@@ -15,11 +15,11 @@ use crate::math::Vec3;
 /// cannot.
 pub(super) fn encloses(triangles: &[[Vec3; 3]], eye: Vec3) -> bool {
     let corners = || triangles.as_flattened().iter().copied();
-    let (Some(least), Some(greatest)) = (corners().reduce(Vec3::min), corners().reduce(Vec3::max)) else {
+    let (Some(min), Some(max)) = (corners().reduce(Vec3::min), corners().reduce(Vec3::max)) else {
         return false;
     };
     // Most eyes that are not enclosed are not even within the box around everything, which takes no search to see.
-    if eye.cmplt(least).any() || eye.cmpgt(greatest).any() {
+    if eye.cmplt(min).any() || eye.cmpgt(max).any() {
         return false;
     }
     let mut sets = DisjointSets::new(triangles.len());
@@ -71,7 +71,7 @@ fn crosses([a, b, c]: [DVec3; 3], direction: DVec3) -> bool {
 fn edges(triangles: &[[Vec3; 3]]) -> Vec<([u32; 2], u32)> {
     let corners = triangles.as_flattened();
     // Adding zero makes -0 into 0.
-    let numbers = firsts(corners.len(), |corner| (corners[corner] + Vec3::ZERO).to_array().map(f32::to_bits));
+    let numbers = dedup(corners.len(), |corner| (corners[corner] + Vec3::ZERO).to_array().map(f32::to_bits));
     let mut edges = Vec::with_capacity(numbers.len());
     for (index, &[a, b, c]) in numbers.as_chunks().0.iter().enumerate() {
         for mut edge in [[a, b], [b, c], [c, a]] {

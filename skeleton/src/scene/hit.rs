@@ -154,7 +154,7 @@ impl<'a> Hit<'a> {
     /// the surface that it leaves; for another direction spawn another ray.
     #[inline]
     pub fn spawn(&self, wi: Vec3) -> Ray {
-        Ray { leaves: Some(self.primitive), ..Ray::new(self.leave_towards(wi), wi) }
+        Ray { exclude: Some(self.primitive), ..Ray::new(self.leave_towards(wi), wi) }
     }
 
     /// The point just off the surface from which something that lies in the given direction is looked at.

@@ -78,7 +78,7 @@ impl Scene {
     pub fn intersect(&self, ray: &Ray) -> Option<Hit<'_>> {
         #[cfg(feature = "probe")]
         crate::probe::count(|counts| counts.rays += 1);
-        let hit = self.accel.intersect(ray.origin, ray.direction, f32::INFINITY, ray.leaves);
+        let hit = self.accel.intersect(ray.origin, ray.direction, f32::INFINITY, ray.exclude);
         let hit = hit.map(|hit| Hit::new(self, ray, hit));
         #[cfg(feature = "probe")]
         scripted::record_intersect(ray, hit.as_ref());

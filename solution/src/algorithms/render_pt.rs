@@ -53,7 +53,7 @@ impl Integrator for PathTracer {
                     (Technique::Bsdf, _) | (_, None) => 1.0,
                     (Technique::Nee, Some(_)) => 0.0,
                     (Technique::Mis, Some((from, p_brdf))) => {
-                        let (_, distance) = direction(from, hit.point);
+                        let (_, distance) = direction_and_distance(from, hit.point);
                         let p_ne =
                             pick_probability(scene) * emission.pdf_area * distance * distance / emission.cos;
                         balance(p_brdf, p_ne)
@@ -106,7 +106,7 @@ impl PathTracer {
         let Some(light) = scene.lights().get(pick as usize) else { return Rgb::BLACK };
         let Some(sample) = light.sample_direct(hit.point, sampler) else { return Rgb::BLACK };
 
-        let (wi, distance) = direction(hit.point, sample.point);
+        let (wi, distance) = direction_and_distance(hit.point, sample.point);
         let f = bsdf.eval(wi);
         if f.is_black() || scene.occluded(hit, sample.point) {
             return Rgb::BLACK;

@@ -175,12 +175,12 @@ fn at_most_one(factor: Rgb, keyword: &str, warn: &mut impl FnMut(String)) -> Rgb
 /// Scales `Kd` and `Ks` by the same factor if they reflect more light than arrives, where the texture is
 /// brightest. One factor for all channels keeps the hue.
 fn conserve_energy(kd: Rgb, brightest: Rgb, ks: Rgb, warn: &mut impl FnMut(String)) -> (Rgb, Rgb) {
-    let most = (kd * brightest + ks).max_channel();
-    if most <= 1.0 + TOLERANCE {
+    let max = (kd * brightest + ks).max_channel();
+    if max <= 1.0 + TOLERANCE {
         return (kd, ks);
     }
-    warn(format!("reflects {most} times the light that arrives (`Kd` + `Ks`); both are divided by that"));
-    (kd / most, ks / most)
+    warn(format!("reflects {max} times the light that arrives (`Kd` + `Ks`); both are divided by that"));
+    (kd / max, ks / max)
 }
 
 /// The largest value of each channel, as a linear factor.

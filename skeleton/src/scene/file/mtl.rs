@@ -200,13 +200,14 @@ fn illumination_model(statement: &Statement<'_>) -> Result<u8, String> {
 fn without_options(arguments: &str) -> (&str, bool) {
     let mut rest = arguments;
     let mut found = false;
-    while let Some(&(_, most)) = MAP_OPTIONS.iter().find(|(option, _)| first_word(rest).0 == *option) {
+    while let Some(&(_, max_arguments)) = MAP_OPTIONS.iter().find(|(option, _)| first_word(rest).0 == *option)
+    {
         found = true;
         rest = first_word(rest).1;
-        for number in 0..most {
+        for number in 0..max_arguments {
             let (word, after) = first_word(rest);
             // `-o`, `-s` and `-t` may have fewer numbers than three; the others have words that are no numbers.
-            if most == 3 && number > 0 && word.parse::<f32>().is_err() {
+            if max_arguments == 3 && number > 0 && word.parse::<f32>().is_err() {
                 break;
             }
             rest = after;
