@@ -1,8 +1,22 @@
 //! The camera.
 
+use serde::{Deserialize, Serialize};
+
 use crate::math::{Vec3, direction_and_distance};
 use crate::ray::Ray;
-use crate::scene::CameraDescription;
+
+/// A perspective camera.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CameraDescription {
+    /// The pinhole.
+    pub eye: Vec3,
+    /// The point that is shown in the middle of the image.
+    pub center: Vec3,
+    /// The direction that is shown upwards; need not be a unit vector nor perpendicular to the view.
+    pub up: Vec3,
+    /// The angle that the image spans from its left to its right edge, in degrees.
+    pub fov: f32,
+}
 
 /// A pinhole camera for an image of a given size. Each pixel averages over its own square (box filter).
 #[derive(Clone, Copy, Debug)]

@@ -31,9 +31,12 @@ pub mod camera;
 #[cfg(feature = "cli")]
 pub mod cli;
 mod dedup;
+pub mod diagnostic;
 pub mod film;
 #[cfg(feature = "files")]
 pub mod image;
+#[cfg(feature = "files")]
+mod input;
 pub mod integrator;
 pub mod light;
 pub mod math;

@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use arty::scene::Diagnostic;
+use arty::diagnostic::Diagnostic;
 use arty::scene::file::load;
 
 /// A file in `tests/broken`, the line that is to blame, and words that the message must have.

@@ -10,11 +10,12 @@ use super::messages;
 use super::numbers::counted;
 use super::plan::Plan;
 use super::progress::Progress;
+use crate::diagnostic::Diagnostic;
 use crate::film::Film;
 use crate::image::error::{Truth, mse, relative_mse, trimmed_relative_mse};
 use crate::image::exr::ExrFile;
 use crate::image::{Image, check_writable, write_aside};
-use crate::scene::{Defaults, Diagnostic, SceneDescription};
+use crate::scene::{Defaults, SceneDescription};
 
 /// A row of the table is due when there are this many times the samples of the row before.
 const STEP: f64 = 1.2;

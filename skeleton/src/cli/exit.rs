@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use crate::scene::Diagnostic;
+use crate::diagnostic::Diagnostic;
 
 /// The exit status of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,11 +7,12 @@ use super::exit::Failure;
 use super::messages;
 use super::plan::Plan;
 use super::session::Rendering;
+use crate::diagnostic::Diagnostic;
 use crate::film::{Film, Pixel};
 use crate::image::exr::{ExrFile, Precision};
 use crate::image::{Image, check_writable, write_png};
 use crate::math::Rgb;
-use crate::scene::{Diagnostic, SceneDescription};
+use crate::scene::SceneDescription;
 
 /// A file to save the picture in.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -6,8 +6,8 @@ use ::image::codecs::png::PngEncoder;
 use ::image::{ExtendedColorType, ImageEncoder};
 
 use super::{Image, write_aside};
+use crate::diagnostic::Diagnostic;
 use crate::math::Rgb;
-use crate::scene::Diagnostic;
 use crate::srgb::{exposure_factor, linear_to_srgb_u8};
 
 /// The colour of a pixel that is not a number, so that nobody takes it for a dark one: magenta.

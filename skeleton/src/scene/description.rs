@@ -7,6 +7,7 @@
 use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
+use crate::camera::CameraDescription;
 use crate::math::Rgb;
 
 /// A whole scene as data. Lengths are in scene units, positions in world space.
@@ -24,19 +25,6 @@ pub struct SceneDescription {
     pub lights: Vec<LightDescription>,
     /// How the scene wants to be rendered unless told otherwise.
     pub defaults: Defaults,
-}
-
-/// A perspective camera.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CameraDescription {
-    /// The pinhole.
-    pub eye: Vec3,
-    /// The point that is shown in the middle of the image.
-    pub center: Vec3,
-    /// The direction that is shown upwards; need not be a unit vector nor perpendicular to the view.
-    pub up: Vec3,
-    /// The angle that the image spans from its left to its right edge, in degrees.
-    pub fov: f32,
 }
 
 /// Triangles that share their lists of vertices.

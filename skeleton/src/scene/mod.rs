@@ -3,7 +3,6 @@
 mod build;
 mod closed;
 mod description;
-mod diagnostic;
 mod features;
 #[cfg(feature = "files")]
 pub mod file;
@@ -18,8 +17,8 @@ use crate::light::Light;
 use crate::math::{Rgb, Vec2, Vec3};
 use crate::ray::Ray;
 
+pub use crate::camera::CameraDescription;
 pub use description::*;
-pub use diagnostic::Diagnostic;
 pub use features::Features;
 pub use hit::Hit;
 

@@ -14,7 +14,7 @@ use ::exr::meta::header::{Header, LayerAttributes};
 use ::exr::prelude::f16;
 
 use super::ExrFile;
-use crate::scene::Diagnostic;
+use crate::diagnostic::Diagnostic;
 
 /// The most samples that are read: 1 GiB of memory.
 const MAX_SAMPLES: u128 = 1 << 28;

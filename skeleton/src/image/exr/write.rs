@@ -12,8 +12,8 @@ use ::exr::meta::header::{Header, LayerAttributes, standard_names};
 use ::exr::prelude::{SmallVec, f16};
 
 use super::{ExrFile, Precision};
+use crate::diagnostic::Diagnostic;
 use crate::image::write_aside;
-use crate::scene::Diagnostic;
 
 /// Names of channels and metadata may have this many bytes.
 const MAX_NAME_LENGTH: usize = 255;

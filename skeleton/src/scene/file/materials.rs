@@ -4,11 +4,13 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use super::mtl::{self, Definition, Definitions};
-use super::text::{self, Reference};
+use super::text;
 use super::texture::Textures;
 use super::warnings::Warnings;
+use crate::diagnostic::Diagnostic;
+use crate::input::Reference;
 use crate::math::Rgb;
-use crate::scene::{Diagnostic, Material, Specular, Texture};
+use crate::scene::{Material, Specular, Texture};
 use crate::srgb::srgb_to_linear_u8;
 
 /// How much more than 1 a sum of reflectances may be before it is corrected: decimals in a file are rounded.

@@ -74,7 +74,7 @@ mod keys;
 mod materials;
 mod mtl;
 mod obj;
-pub(crate) mod text;
+mod text;
 mod texture;
 mod transform;
 mod warnings;
@@ -84,10 +84,12 @@ use std::path::Path;
 
 use self::keys::SceneFile;
 use self::materials::Materials;
-use self::text::{Reference, relative_to};
+use self::text::relative_to;
 use self::transform::Placement;
 use self::warnings::Warnings;
-use super::{Diagnostic, SceneDescription};
+use super::SceneDescription;
+use crate::diagnostic::Diagnostic;
+use crate::input::Reference;
 use crate::yaml;
 
 /// A scene as read, and what there is to say about its files.

@@ -5,10 +5,11 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use super::text::{self, Reference, Statement, statements};
+use super::text::{Statement, statements};
 use super::warnings::Warnings;
+use crate::diagnostic::Diagnostic;
+use crate::input::{self, Reference};
 use crate::math::Rgb;
-use crate::scene::Diagnostic;
 
 const MAX_BYTES: u64 = 64 << 20;
 
@@ -77,7 +78,7 @@ pub(super) fn read(
     named: &Reference,
     warnings: &mut Warnings,
 ) -> Result<Definitions, Diagnostic> {
-    let text = text::read(file, MAX_BYTES, Some(named))?;
+    let text = input::read(file, MAX_BYTES, Some(named))?;
     let mut definitions = Definitions::new();
     let mut current: Option<(&str, Definition)> = None;
     for statement in statements(&text) {

@@ -1,79 +1,12 @@
-//! Text files: reading them, and going through them line by line.
+//! Going through OBJ and MTL files line by line.
 
 use std::borrow::Cow;
-use std::fmt;
-use std::io;
 use std::path::{Path, PathBuf};
-
-use crate::scene::Diagnostic;
-
-/// Where a file is named that is to be read.
-#[derive(Clone, Debug)]
-pub(crate) struct Reference {
-    /// The file that names it.
-    pub(super) file: PathBuf,
-    /// The line in which it does.
-    pub(super) line: Option<usize>,
-}
-
-impl fmt::Display for Reference {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "named in {}", self.file.display())?;
-        self.line.map_or(Ok(()), |line| write!(f, ":{line}"))
-    }
-}
 
 /// The path of a file that is named in another, relative to that one; `\` separates folders like `/` does.
 pub(super) fn relative_to(file: &Path, name: &str) -> PathBuf {
     let name = name.replace('\\', "/");
     file.parent().unwrap_or(Path::new("")).join(name)
-}
-
-/// A diagnostic about a file that cannot be read, which says where that file is named.
-pub(super) fn unreadable(path: &Path, named: Option<&Reference>, problem: impl fmt::Display) -> Diagnostic {
-    match named {
-        Some(reference) => Diagnostic::about(path, format!("{problem} ({reference})")),
-        None => Diagnostic::about(path, problem.to_string()),
-    }
-}
-
-/// Checks that there is a regular file of at most `max_bytes`, so that reading it comes to an end.
-pub(super) fn check_readable(
-    path: &Path,
-    max_bytes: u64,
-    named: Option<&Reference>,
-) -> Result<(), Diagnostic> {
-    let metadata = std::fs::metadata(path).map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => unreadable(path, named, "there is no such file"),
-        _ => unreadable(path, named, format_args!("cannot be read: {error}")),
-    })?;
-    if metadata.is_dir() {
-        return Err(unreadable(path, named, "is a folder, but a file was expected"));
-    }
-    if !metadata.is_file() {
-        return Err(unreadable(path, named, "is not a regular file"));
-    }
-    if metadata.len() > max_bytes {
-        let problem = format!("has {} bytes, but at most {max_bytes} are read", metadata.len());
-        return Err(unreadable(path, named, problem));
-    }
-    Ok(())
-}
-
-/// Reads a text file of at most `max_bytes`; a byte order mark is dropped.
-pub(crate) fn read(path: &Path, max_bytes: u64, named: Option<&Reference>) -> Result<String, Diagnostic> {
-    check_readable(path, max_bytes, named)?;
-    let bytes = std::fs::read(path)
-        .map_err(|error| unreadable(path, named, format_args!("cannot be read: {error}")))?;
-    let mut text = String::from_utf8(bytes).map_err(|error| {
-        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let line = valid.iter().filter(|byte| **byte == b'\n').count() + 1;
-        Diagnostic::at(path, line, "is not text in UTF-8, which was expected")
-    })?;
-    if text.starts_with('\u{feff}') {
-        text.drain(..'\u{feff}'.len_utf8());
-    }
-    Ok(text)
 }
 
 /// Joins lines that end in `\` with the next, and puts empty lines after them, so that the lines that follow

@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 
 use image::{ImageFormat, ImageReader, Limits};
 
-use super::text::{self, Reference};
-use crate::scene::{Diagnostic, Texture};
+use crate::diagnostic::Diagnostic;
+use crate::input::{self, Reference};
+use crate::scene::Texture;
 
 /// Columns or rows of an image at most.
 const MAX_SIDE: u32 = 16384;
@@ -32,7 +33,7 @@ impl Textures {
             return Ok(index);
         }
         let index = u32::try_from(self.textures.len())
-            .map_err(|_| text::unreadable(file, Some(named), "is one texture too many"))?;
+            .map_err(|_| input::unreadable(file, Some(named), "is one texture too many"))?;
         self.textures.push(read(file, named)?);
         self.indices.insert(key, index);
         Ok(index)
@@ -50,9 +51,9 @@ impl Textures {
 }
 
 fn read(file: &Path, named: &Reference) -> Result<Texture, Diagnostic> {
-    text::check_readable(file, MAX_FILE_BYTES, Some(named))?;
+    input::check_readable(file, MAX_FILE_BYTES, Some(named))?;
     let unreadable = |error: &dyn std::fmt::Display| {
-        text::unreadable(file, Some(named), format_args!("cannot be read as an image: {error}"))
+        input::unreadable(file, Some(named), format_args!("cannot be read as an image: {error}"))
     };
     let mut reader = ImageReader::open(file)
         .and_then(ImageReader::with_guessed_format)

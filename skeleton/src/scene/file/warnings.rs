@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use crate::scene::Diagnostic;
+use crate::diagnostic::Diagnostic;
 
 /// What there is to say about files that could be read nevertheless.
 #[derive(Default)]

@@ -9,10 +9,12 @@ use glam::{Vec2, Vec3};
 
 use self::outline::{Outline, Parts};
 use super::materials::Materials;
-use super::text::{self, Reference};
+use super::text;
 use super::transform::Placement;
 use super::warnings::Warnings;
-use crate::scene::{Diagnostic, Mesh, MeshTriangle};
+use crate::diagnostic::Diagnostic;
+use crate::input::{self, Reference};
+use crate::scene::{Mesh, MeshTriangle};
 
 /// Enough for some ten million triangles; more would not fit in memory once it is read.
 const MAX_BYTES: u64 = 1 << 30;
@@ -25,7 +27,7 @@ pub(super) fn read(
     materials: &mut Materials,
     warnings: &mut Warnings,
 ) -> Result<Mesh, Diagnostic> {
-    let text = text::read(file, MAX_BYTES, Some(named))?;
+    let text = input::read(file, MAX_BYTES, Some(named))?;
     let text = text::join_continued_lines(&text);
     let outline = Outline::new(file, &text, warnings)?;
     let mesh = numbers_of(file, &text, &outline)?;
@@ -35,7 +37,7 @@ pub(super) fn read(
     let positions = triples(&mesh.positions).map(|position| placement.position(position)).collect::<Vec<_>>();
     if !positions.iter().all(|position| position.is_finite()) {
         let problem = "the transform takes its vertices too far away to be represented";
-        return Err(text::unreadable(file, Some(named), problem));
+        return Err(input::unreadable(file, Some(named), problem));
     }
     Ok(Mesh {
         positions,

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::outline::shown;
-use crate::scene::Diagnostic;
+use crate::diagnostic::Diagnostic;
 use crate::scene::file::text::{Statement, statements};
 
 /// How many numbers may follow `keyword`.

@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::numbers;
-use crate::scene::Diagnostic;
+use crate::diagnostic::Diagnostic;
 use crate::scene::file::text::{Statement, statements};
 use crate::scene::file::warnings::Warnings;
 
