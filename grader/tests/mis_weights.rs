@@ -70,9 +70,9 @@ fn swapped_and_constant_weights_are_named() {
 fn densities_per_area_are_named() {
     let sampled = (
         SAMPLED,
-        "Technique::Mis if light.has_area() => balance(pick_probability(scene) * sample.pdf_area, bsdf.pdf(wi))",
+        "Technique::Mis if light.has_area() => balance(p_light(scene) * sample.pdf_area, bsdf.pdf(wi))",
     );
-    let hit = (HIT, "balance(p_brdf, pick_probability(scene) * emission.pdf_area)");
+    let hit = (HIT, "balance(p_brdf, p_light(scene) * emission.pdf_area)");
     fails(
         &[sampled, hit],
         &["in both weights", "per area, not per solid angle: exponent -2 on the distance"],

@@ -1,5 +1,7 @@
 //! Random numbers, one stream for each (seed, pixel, sample).
 
+use crate::probe::{self, Call};
+
 /// The random numbers of one path.
 ///
 /// Each triple (seed, pixel, sample) has a stream of its own, worked out from the triple alone. So any path can be
@@ -29,8 +31,7 @@ impl Sampler {
     #[inline]
     pub fn next_1d(&mut self) -> f32 {
         let number = self.own();
-        #[cfg(feature = "probe")]
-        crate::probe::record(|| call_1d(number));
+        probe::record(|| recorded_1d(number));
         number
     }
 
@@ -38,18 +39,14 @@ impl Sampler {
     #[inline]
     pub fn next_2d(&mut self) -> (f32, f32) {
         let numbers = (self.own(), self.own());
-        #[cfg(feature = "probe")]
-        crate::probe::record(|| call_2d(numbers));
+        probe::record(|| recorded_2d(numbers));
         numbers
     }
 
     /// A number for an integrator.
     #[inline]
     fn own(&mut self) -> f32 {
-        let number = self.draw();
-        #[cfg(feature = "probe")]
-        let number = crate::probe::place(number);
-        number
+        probe::stratified(self.draw())
     }
 
     /// The numbers that the framework itself takes, inside `sample` and `sample_direct`.
@@ -74,16 +71,6 @@ impl Sampler {
     }
 }
 
-#[cfg(feature = "probe")]
-fn call_1d(number: f32) -> crate::probe::Call {
-    crate::probe::Call::new("Sampler::next_1d").got("number", number)
-}
-
-#[cfg(feature = "probe")]
-fn call_2d(numbers: (f32, f32)) -> crate::probe::Call {
-    crate::probe::Call::new("Sampler::next_2d").got("numbers", numbers)
-}
-
 /// The seed of one of many independent renderings that belong to the same `seed`.
 pub fn batch_seed(seed: u64, batch: u64) -> u64 {
     mix(mix(seed ^ GOLDEN).wrapping_add(batch.wrapping_mul(GOLDEN)))
@@ -99,6 +86,14 @@ fn mix(mut z: u64) -> u64 {
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     z ^ (z >> 31)
+}
+
+fn recorded_1d(number: f32) -> Call {
+    Call::new("Sampler::next_1d").got("number", number)
+}
+
+fn recorded_2d(numbers: (f32, f32)) -> Call {
+    Call::new("Sampler::next_2d").got("numbers", numbers)
 }
 
 #[cfg(test)]

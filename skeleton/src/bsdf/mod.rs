@@ -12,14 +12,18 @@ mod glass;
 mod lobe;
 mod mirror;
 mod phong;
+mod recorded;
+mod scripted;
 
 use crate::math::{Rgb, Vec3};
+use crate::probe;
 use crate::sampler::Sampler;
 
 pub use fresnel::fresnel_dielectric;
 pub(crate) use glass::Glass;
 pub(crate) use lobe::Lobe;
 pub(crate) use phong::Phong;
+pub(crate) use scripted::ScriptedLobe;
 
 /// The bidirectional scattering distribution function at a hit point, for a fixed direction `wo` to the viewer.
 ///
@@ -107,8 +111,7 @@ impl Bsdf {
     #[inline]
     pub fn eval(&self, wi: Vec3) -> Rgb {
         let f = self.value(wi);
-        #[cfg(feature = "probe")]
-        crate::probe::record(|| eval_call(wi, f));
+        probe::record(|| recorded::eval(wi, f));
         f
     }
 
@@ -138,8 +141,7 @@ impl Bsdf {
     #[inline]
     pub fn pdf(&self, wi: Vec3) -> f32 {
         let pdf = self.density(wi);
-        #[cfg(feature = "probe")]
-        crate::probe::record(|| pdf_call(wi, pdf));
+        probe::record(|| recorded::pdf(wi, pdf));
         pdf
     }
 
@@ -166,14 +168,11 @@ impl Bsdf {
     /// path ends there, with no correction to be made.
     #[inline]
     pub fn sample(&self, sampler: &mut Sampler) -> Option<BsdfSample> {
-        #[cfg(feature = "probe")]
-        crate::probe::count(|counts| counts.bsdf_samples += 1);
         let sample = match self.only_diffuse() {
             Some(_) => self.sample_towards(diffuse::sample(&self.geometry, sampler)),
             None => self.sample_lobes(sampler),
         };
-        #[cfg(feature = "probe")]
-        crate::probe::record(|| sample_call(sample));
+        probe::record(|| recorded::sample(sample));
         sample
     }
 
@@ -207,26 +206,5 @@ impl Bsdf {
     #[inline]
     pub fn is_delta(&self) -> bool {
         self.first.is_delta() && self.second.is_none_or(|second| second.is_delta())
-    }
-}
-
-#[cfg(feature = "probe")]
-fn eval_call(wi: Vec3, f: Rgb) -> crate::probe::Call {
-    crate::probe::Call::new("Bsdf::eval").given("wi", wi).got("f", f)
-}
-
-#[cfg(feature = "probe")]
-fn pdf_call(wi: Vec3, pdf: f32) -> crate::probe::Call {
-    crate::probe::Call::new("Bsdf::pdf").given("wi", wi).got("pdf", pdf)
-}
-
-#[cfg(feature = "probe")]
-fn sample_call(sample: Option<BsdfSample>) -> crate::probe::Call {
-    let call = crate::probe::Call::new("Bsdf::sample");
-    match sample {
-        None => call,
-        Some(BsdfSample { wi, f, pdf, cos, is_delta }) => {
-            call.got("wi", wi).got("f", f).got("pdf", pdf).got("cos", cos).got("is_delta", is_delta)
-        }
     }
 }

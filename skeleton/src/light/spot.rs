@@ -46,9 +46,9 @@ impl SpotLight {
         let intensity = self.intensity * self.falloff(0.5 * (w - self.axis).length_squared());
         (!intensity.is_black()).then_some(DirectSample {
             point: self.position,
-            intensity,
+            emitted: intensity,
             pdf_area: 1.0,
-            cos: 1.0,
+            cos_light: 1.0,
         })
     }
 

@@ -8,6 +8,7 @@ use super::{
 use crate::accel::Accel;
 use crate::light::{Light, PointLight, Shape, SpotLight, TriangleLight};
 use crate::math::{Rgb, Vec3};
+use crate::probe::Switches;
 
 impl Scene {
     /// Builds everything that rays need: the hierarchy, the lights, the features.
@@ -24,7 +25,6 @@ impl Scene {
             diffuse_map: material.diffuse_map,
             // A lobe that reflects nothing would only take samples away from the other one.
             specular: if material.specular.is_black() { Specular::None } else { material.specular },
-            #[cfg(feature = "probe")]
             script: None,
         }));
         for mesh in &description.meshes {
@@ -68,7 +68,6 @@ impl Builder {
                         diffuse: Rgb::BLACK,
                         diffuse_map: None,
                         specular: Specular::None,
-                        #[cfg(feature = "probe")]
                         script: None,
                     });
                     self.first_material = 1;
@@ -148,8 +147,7 @@ impl Builder {
             defaults: description.defaults,
             features,
             warnings,
-            #[cfg(feature = "probe")]
-            switches: Default::default(),
+            switches: Switches::ALL,
         }
     }
 

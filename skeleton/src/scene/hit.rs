@@ -1,10 +1,11 @@
 //! The point where a ray meets a surface.
 
-use super::{Attributes, NONE, Scene, Specular, Surface, Triangle};
+use super::{Attributes, NONE, Scene, Specular, Surface, Triangle, recorded};
 use crate::accel::{TriangleHit, offset_origin, point_on};
-use crate::bsdf::{Bsdf, Glass, Lobe, LocalGeometry, Phong};
-use crate::light::Light;
+use crate::bsdf::{Bsdf, Glass, Lobe, LocalGeometry, Phong, ScriptedLobe};
+use crate::light::{Emission, Light, recorded_emission};
 use crate::math::{Rgb, Vec2, Vec3};
+use crate::probe;
 use crate::ray::Ray;
 
 /// A point on a surface, seen from where a ray came from. All vectors are in world space.
@@ -65,10 +66,21 @@ impl<'a> Hit<'a> {
         }
     }
 
-    /// The light that was hit, or `None` if this surface emits nothing to where the ray came from: lights emit from
-    /// their front only.
+    /// What the surface emits at this point towards the viewer, and which light it is. `None` if it emits nothing:
+    /// it is no light, or the ray has hit the back of one.
     #[inline]
-    pub fn light(&self) -> Option<&'a Light> {
+    pub fn emission(&self) -> Option<Emission<'a>> {
+        let mut emission = self.light()?.emission(self.wo)?;
+        if !self.scene.switches.emission_on_hit() {
+            emission.radiance = Rgb::BLACK;
+        }
+        probe::record(|| recorded_emission(self.point, &emission));
+        Some(emission)
+    }
+
+    /// The light whose front this is.
+    #[inline]
+    pub(super) fn light(&self) -> Option<&'a Light> {
         let light = if self.front { self.triangle.light } else { self.triangle.back_light };
         (light != NONE).then(|| &self.scene.lights[light as usize])
     }
@@ -79,9 +91,8 @@ impl<'a> Hit<'a> {
         let geometry =
             LocalGeometry { normal: self.normal, geometric_normal: self.geometric_normal, wo: self.wo };
         let surface = self.surface();
-        #[cfg(feature = "probe")]
         if let Some(script) = surface.script {
-            return Bsdf::single(geometry, Lobe::Scripted(script.seen_from(self.point)));
+            return Bsdf::single(geometry, Lobe::Scripted(ScriptedLobe::new(script, self.point)));
         }
         match surface.specular {
             Specular::None => Bsdf::single(geometry, Lobe::Diffuse { albedo: self.diffuse_albedo() }),
@@ -145,8 +156,7 @@ impl<'a> Hit<'a> {
     #[inline]
     pub fn cos(&self, wi: Vec3) -> f32 {
         let cos = self.normal.dot(wi).abs();
-        #[cfg(feature = "probe")]
-        crate::probe::record(|| super::scripted::cos_call(wi, cos));
+        probe::record(|| recorded::cos(wi, cos));
         cos
     }
 

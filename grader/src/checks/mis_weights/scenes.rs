@@ -208,7 +208,7 @@ fn open_ways(scripted: &ScriptedScene, vertices: usize) -> Option<(usize, bool)>
             scripted.lights.iter().flatten().filter(|light| !scene.occluded(&hit, light.point)).count();
         ray = hit.spawn(direction_and_distance(hit.point, target).0);
         if vertex == 0 {
-            return Some((seen, scene.intersect(&ray).is_some_and(|next| next.light().is_some())));
+            return Some((seen, scene.intersect(&ray).is_some_and(|next| next.emission().is_some())));
         }
         let next = scene.intersect(&ray)?;
         if seen > 0 || (next.point - target).length() > 1e-3 * (target - hit.point).length() {
