@@ -1,4 +1,4 @@
-//! Input files: checks before reading, and reading text.
+//! Reading input files.
 
 use std::fmt;
 use std::io;
@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 
 use crate::diagnostic::Diagnostic;
 
-/// Where a file is named that is to be read.
+/// The place where an input file is named.
 #[derive(Clone, Debug)]
 pub(crate) struct Reference {
     /// The file that names it.
     pub(crate) file: PathBuf,
-    /// The line in which it does.
+    /// The line, counted from 1, if known.
     pub(crate) line: Option<usize>,
 }
 
@@ -22,7 +22,7 @@ impl fmt::Display for Reference {
     }
 }
 
-/// A diagnostic about a file that cannot be read, which says where that file is named.
+/// A diagnostic about a file that cannot be read, with the place where it is named.
 pub(crate) fn unreadable(path: &Path, named: Option<&Reference>, problem: impl fmt::Display) -> Diagnostic {
     match named {
         Some(reference) => Diagnostic::about(path, format!("{problem} ({reference})")),
@@ -30,30 +30,30 @@ pub(crate) fn unreadable(path: &Path, named: Option<&Reference>, problem: impl f
     }
 }
 
-/// Checks that there is a regular file of at most `max_bytes`, so that reading it comes to an end.
+/// Checks that `path` is a regular file of at most `max_bytes`, so that reading it terminates.
 pub(crate) fn check_readable(
     path: &Path,
     max_bytes: u64,
     named: Option<&Reference>,
 ) -> Result<(), Diagnostic> {
     let metadata = std::fs::metadata(path).map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => unreadable(path, named, "there is no such file"),
+        io::ErrorKind::NotFound => unreadable(path, named, "no such file"),
         _ => unreadable(path, named, format_args!("cannot be read: {error}")),
     })?;
     if metadata.is_dir() {
-        return Err(unreadable(path, named, "is a folder, but a file was expected"));
+        return Err(unreadable(path, named, "is a folder, not a file"));
     }
     if !metadata.is_file() {
         return Err(unreadable(path, named, "is not a regular file"));
     }
     if metadata.len() > max_bytes {
-        let problem = format!("has {} bytes, but at most {max_bytes} are read", metadata.len());
+        let problem = format!("has {} bytes; at most {max_bytes} are read", metadata.len());
         return Err(unreadable(path, named, problem));
     }
     Ok(())
 }
 
-/// Reads a text file of at most `max_bytes`; a byte order mark is dropped.
+/// Reads a UTF-8 text file of at most `max_bytes`, without its byte order mark.
 pub(crate) fn read(path: &Path, max_bytes: u64, named: Option<&Reference>) -> Result<String, Diagnostic> {
     check_readable(path, max_bytes, named)?;
     let bytes = std::fs::read(path)
@@ -61,7 +61,7 @@ pub(crate) fn read(path: &Path, max_bytes: u64, named: Option<&Reference>) -> Re
     let mut text = String::from_utf8(bytes).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = valid.iter().filter(|byte| **byte == b'\n').count() + 1;
-        Diagnostic::at(path, line, "is not text in UTF-8, which was expected")
+        Diagnostic::at(path, line, "is not valid UTF-8")
     })?;
     if text.starts_with('\u{feff}') {
         text.drain(..'\u{feff}'.len_utf8());

@@ -1,4 +1,4 @@
-//! Everything that an integrator needs: `use arty::prelude::*;`.
+//! Everything an integrator needs: `use arty::prelude::*;`.
 
 pub use crate::bsdf::{Bsdf, BsdfSample};
 pub use crate::integrator::{Integrator, Settings, Technique};

@@ -202,7 +202,7 @@ proptest! {
     }
 
     #[test]
-    fn a_damaged_exr_file_is_a_picture_or_one_clear_error(damages in vec(damage(), 1..6)) {
+    fn a_damaged_exr_file_is_an_image_or_one_clear_error(damages in vec(damage(), 1..6)) {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let path = folder.path().join("a.exr");
         let bytes = std::fs::read(project().join("references/area_plane.exr")).expect("the corpus is there");

@@ -37,7 +37,7 @@ fn pool(threads: usize) -> ThreadPool {
     ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started")
 }
 
-fn picture(pool: &ThreadPool, scene: &Scene, technique: Technique, samples: u64) -> Film {
+fn image(pool: &ThreadPool, scene: &Scene, technique: Technique, samples: u64) -> Film {
     let mut film = Film::new(WIDTH, HEIGHT);
     let tracer = PathTracer::new(Settings { technique, max_bounces: MAX_BOUNCES });
     pool.install(|| render(&tracer, scene, &mut film, 0..samples, 1, &AtomicBool::new(false)));

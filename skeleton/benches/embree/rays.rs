@@ -120,7 +120,7 @@ impl Rays {
             if rays.primary.len() >= RAYS && rays.bounces.len() >= RAYS && rays.shadow.len() >= RAYS {
                 break;
             }
-            // Neighbouring pixels follow each other in a picture; here each is drawn apart, the harder case.
+            // Neighbouring pixels follow each other in an image; here each is drawn apart, the harder case.
             let mut sampler = Sampler::new(1, (0, 0), path);
             let (u, v) = sampler.next_2d();
             let pixel = ((u * SIZE.0 as f32) as u32, (v * SIZE.1 as f32) as u32);

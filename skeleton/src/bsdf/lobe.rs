@@ -1,11 +1,11 @@
-//! One term of a BSDF.
+//! The lobes of a BSDF.
 
 use super::scripted::ScriptedLobe;
 use super::{BsdfSample, Glass, LocalGeometry, Phong, diffuse, mirror};
 use crate::math::{Rgb, Vec3};
 use crate::sampler::Sampler;
 
-/// One of the models that a BSDF is put together from. `eval` and `pdf` expect a `wi` above both horizons.
+/// One term of a BSDF. `eval` and `pdf` expect `wi` above both horizons.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Lobe {
     Diffuse {
@@ -16,7 +16,7 @@ pub(crate) enum Lobe {
         reflectance: Rgb,
     },
     Glass(Glass),
-    /// In no build but that of the grader's host.
+    /// In the build of the grader's host only.
     Scripted(ScriptedLobe),
 }
 
@@ -50,7 +50,7 @@ impl Lobe {
         }
     }
 
-    /// A direction of a lobe that is not a delta distribution; `None` for one that is.
+    /// Samples a direction; `None` for a delta lobe.
     #[inline]
     pub(super) fn sample_direction(&self, geometry: &LocalGeometry, sampler: &mut Sampler) -> Option<Vec3> {
         match self {
@@ -61,7 +61,7 @@ impl Lobe {
         }
     }
 
-    /// The direction of a delta lobe; `None` for any other.
+    /// Samples the direction of a delta lobe; `None` for any other lobe.
     #[inline]
     pub(super) fn sample_delta(&self, geometry: &LocalGeometry, sampler: &mut Sampler) -> Option<BsdfSample> {
         match self {

@@ -24,7 +24,7 @@ pub(crate) use triangle::TriangleLight;
 pub struct Light {
     index: usize,
     shape: Shape,
-    /// In no build but that of the grader's host.
+    /// In the build of the grader's host only.
     pub(crate) script: Option<ScriptedLight>,
 }
 

@@ -1,4 +1,4 @@
-//! A point that sends the same intensity in all directions.
+//! A point light: the same intensity in all directions.
 
 use std::f32::consts::PI;
 

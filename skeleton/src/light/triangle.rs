@@ -1,4 +1,4 @@
-//! A triangle that emits the same radiance from every point of its front, in every direction.
+//! A triangle light: constant radiance from every point of its front, in every direction.
 
 use std::f32::consts::PI;
 
@@ -17,7 +17,7 @@ pub(crate) struct TriangleLight {
 }
 
 impl TriangleLight {
-    /// `None` if neither `f32` nor its reciprocal holds the area: such a light would have no density.
+    /// `None` if `f32` cannot represent the area or its reciprocal, the density.
     pub(crate) fn new(vertices: [Vec3; 3], radiance: Rgb) -> Option<Self> {
         let [a, b, c] = vertices.map(Vec3::as_dvec3);
         let cross = (b - a).cross(c - a);

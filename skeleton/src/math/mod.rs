@@ -1,4 +1,4 @@
-//! Numbers, colours, directions, and the maps from random numbers to them.
+//! Colours, vectors, directions, and sampling routines.
 
 mod direction;
 mod frame;

@@ -1,4 +1,4 @@
-//! Scenes: what they are made of, what they look like from a ray.
+//! Scenes: descriptions, files, and what a ray hits.
 
 mod build;
 mod closed;
@@ -23,11 +23,11 @@ pub use description::*;
 pub use features::Features;
 pub use hit::Hit;
 
-/// A scene, ready to be asked by rays. Nothing in it changes while it is rendered.
+/// A scene ready for rendering; immutable.
 pub struct Scene {
     accel: Accel,
     triangles: Vec<Triangle>,
-    /// Normals and texture coordinates of those triangles that have them.
+    /// Normals and texture coordinates, for triangles that have them.
     attributes: Vec<Attributes>,
     surfaces: Vec<Surface>,
     textures: Vec<Texture>,
@@ -39,22 +39,22 @@ pub struct Scene {
     switches: Switches,
 }
 
-/// What is needed of a triangle once it is hit.
+/// The data of a triangle that are needed once it is hit.
 struct Triangle {
     vertices: [Vec3; 3],
     /// Unit normal of the front.
     normal: Vec3,
     /// Index into [`Scene::surfaces`].
     surface: u32,
-    /// The light that its front is: index into [`Scene::lights`], or [`NONE`].
+    /// The light on its front: index into [`Scene::lights`], or [`NONE`].
     light: u32,
-    /// The light that its back is, if another triangle stood there the other way round.
+    /// The light on its back, from a duplicate triangle with the opposite orientation; or [`NONE`].
     back_light: u32,
     /// Index into [`Scene::attributes`], or [`NONE`].
     attributes: u32,
 }
 
-/// No such thing, where an index is expected.
+/// The index that refers to nothing.
 const NONE: u32 = u32::MAX;
 
 struct Attributes {
@@ -62,17 +62,17 @@ struct Attributes {
     uvs: Option<[Vec2; 3]>,
 }
 
-/// A material, with what is the same at all of its points worked out.
+/// A material in the form that hits need.
 struct Surface {
     diffuse: Rgb,
     diffuse_map: Option<u32>,
     specular: Specular,
-    /// In no build but that of the grader's host.
+    /// In the build of the grader's host only.
     script: Option<ScriptedBsdf>,
 }
 
 impl Scene {
-    /// The nearest surface that the ray hits.
+    /// The nearest surface hit by the ray; `None` if the ray leaves the scene.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit<'_>> {
         probe::count_ray();
@@ -82,10 +82,10 @@ impl Scene {
         hit
     }
 
-    /// True if something stands strictly between a hit and a point (world space), such as one on a light.
+    /// Traces a shadow ray: true if any surface, glass included, lies strictly between a hit and a point (world space), such
+    /// as one on a light.
     ///
-    /// Neither the surface that was hit nor the one that `point` lies on counts, nor what is behind them: no
-    /// offsets are needed. Everything else does, glass too.
+    /// The surface that was hit and the one that `point` lies on do not count, so no offsets are needed.
     #[inline]
     pub fn occluded(&self, hit: &Hit<'_>, point: Vec3) -> bool {
         probe::count_shadow_ray();
@@ -95,28 +95,28 @@ impl Scene {
         occluded
     }
 
-    /// All lights; [`Light::index`] is the place in this slice.
+    /// All lights. [`Light::index`] is the index into this slice.
     #[inline]
     pub fn lights(&self) -> &[Light] {
         &self.lights
     }
 
-    /// The camera of the scene, for an image of the given size.
+    /// The camera of the scene for an image of the given size in pixels.
     pub fn camera(&self, width: u32, height: u32) -> Camera {
         Camera::new(&self.camera, width, height)
     }
 
-    /// Settings that the scene file suggests.
+    /// The settings suggested by the scene file.
     pub fn defaults(&self) -> Defaults {
         self.defaults
     }
 
-    /// What there is in the scene, and what is not.
+    /// The features of the scene.
     pub fn features(&self) -> &Features {
         &self.features
     }
 
-    /// What the reader of the scene should know: dropped triangles, limits of precision.
+    /// Warnings about the scene: ignored triangles, limits of precision.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
     }

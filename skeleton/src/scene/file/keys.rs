@@ -118,7 +118,7 @@ impl TryFrom<CameraKeys> for PerspectiveCamera {
             .try_normalize()
             .ok_or("`eye` and `center` are the same point, so the camera looks nowhere")?;
         let upwards = up.as_dvec3().try_normalize().ok_or("`up` must not be zero")?;
-        // The sine of the angle between them. Below this, rounding would decide how the picture is turned.
+        // The sine of the angle between them. Below this, rounding would decide how the image is turned.
         if view.cross(upwards).length() < 1e-5 {
             return Err("`up` must not be parallel to the direction from `eye` to `center`".into());
         }

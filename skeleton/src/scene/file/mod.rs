@@ -62,7 +62,7 @@
 //! Colours may be written with one number for all channels. No value may be negative. No material reflects
 //! more than it receives: factors of mirrors and glass are limited to 1, and where `Kd` (times the brightest
 //! texel) and `Ks` together exceed 1, both are divided by their largest sum, with a warning. Other statements
-//! are ignored, with a warning if they would change the picture.
+//! are ignored, with a warning if they would change the image.
 //!
 //! # Images
 //!
