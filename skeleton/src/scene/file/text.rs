@@ -1,16 +1,15 @@
-//! Going through OBJ and MTL files line by line.
+//! Statements of OBJ and MTL files.
 
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-/// The path of a file that is named in another, relative to that one; `\` separates folders like `/` does.
+/// The path of a file named in another one, relative to that; both `/` and `\` separate folders.
 pub(super) fn relative_to(file: &Path, name: &str) -> PathBuf {
     let name = name.replace('\\', "/");
     file.parent().unwrap_or(Path::new("")).join(name)
 }
 
-/// Joins lines that end in `\` with the next, and puts empty lines after them, so that the lines that follow
-/// keep their numbers.
+/// Joins lines that end in `\` with the next one. Empty lines are inserted after them to preserve line numbers.
 pub(super) fn join_continued_lines(text: &str) -> Cow<'_, str> {
     if !text.contains("\\\n") && !text.contains("\\\r\n") {
         return Cow::Borrowed(text);
@@ -38,22 +37,22 @@ pub(super) struct Statement<'a> {
     pub(super) line: usize,
     /// The first word.
     pub(super) keyword: &'a str,
-    /// What follows, without white space around it.
+    /// The rest of the line, trimmed.
     pub(super) arguments: &'a str,
-    /// The whole line with its end.
+    /// The whole line including its line ending.
     pub(super) text: &'a str,
-    /// Where the line starts in the file, in bytes.
+    /// Byte offset of the line in the file.
     pub(super) start: usize,
 }
 
 impl<'a> Statement<'a> {
-    /// The arguments without a comment after them.
+    /// The arguments without a trailing comment.
     pub(super) fn uncommented(&self) -> &'a str {
         self.arguments.split('#').next().unwrap_or_default().trim_ascii_end()
     }
 }
 
-/// The lines of an OBJ or MTL file, but for those that are empty or a comment.
+/// The statements of an OBJ or MTL file: all lines except empty ones and comments.
 pub(super) fn statements(text: &str) -> impl Iterator<Item = Statement<'_>> {
     let mut end_of_last = 0;
     text.split_inclusive('\n').enumerate().filter_map(move |(index, text)| {
@@ -74,7 +73,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn continued_lines_become_one_and_keep_the_numbers_of_the_others() {
+    fn joining_continued_lines_preserves_line_numbers() {
         let joined = join_continued_lines("f 1 2 \\\n 3\\\r\n 4\r\nv 0 0 0\n");
         let seen: Vec<_> = statements(&joined)
             .map(|statement| (statement.line, statement.keyword, statement.arguments))
