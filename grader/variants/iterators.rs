@@ -28,15 +28,14 @@ impl Integrator for PathTracer {
                 let hit = scene.intersect(&ray)?;
                 let bsdf = hit.bsdf();
                 let found = hit
-                    .light()
-                    .map(|light| light.emission(&hit))
+                    .emission()
                     .map(|emission| {
                         let share = rival.map_or(1.0, |(from, pdf)| match self.technique {
                             Technique::Bsdf => 1.0,
                             Technique::Nee => 0.0,
                             Technique::Mis => {
                                 let squared = from.distance_squared(hit.point);
-                                pdf / (pdf + emission.pdf_area * squared / (emission.cos * count))
+                                pdf / (pdf + emission.pdf_area * squared / (emission.cos_light * count))
                             }
                         });
                         emission.radiance * share
@@ -51,12 +50,12 @@ impl Integrator for PathTracer {
                     .and_then(|light| Some((light, light.sample_direct(hit.point, sampler)?)))
                     .filter(|(_, sample)| !scene.occluded(&hit, sample.point))
                     .map(|(light, sample)| {
-                        let (wi, distance) = direction(hit.point, sample.point);
-                        let p_ne = sample.pdf_area * distance * distance / (sample.cos * count);
+                        let (wi, distance) = direction_and_distance(hit.point, sample.point);
+                        let p_ne = sample.pdf_area * distance * distance / (sample.cos_light * count);
                         let against = light.has_area() && self.technique == Technique::Mis;
                         let p_brdf = if against { bsdf.pdf(wi) } else { 0.0 };
                         // The balance heuristic's weight, divided by p_ne.
-                        bsdf.eval(wi) * sample.intensity * (hit.cos(wi) / (p_ne + p_brdf))
+                        bsdf.eval(wi) * sample.emitted * (hit.cos(wi) / (p_ne + p_brdf))
                     })
                     .unwrap_or(Rgb::BLACK);
                 *state = bsdf.sample(sampler).map(|sample| Vertex {

@@ -66,16 +66,16 @@ impl PathTracer {
             Some((light, pick)) => match light.sample_direct(hit.point, sampler) {
                 None => {}
                 Some(sample) => {
-                    let (wi, distance) = direction(hit.point, sample.point);
+                    let (wi, distance) = direction_and_distance(hit.point, sample.point);
                     match scene.occluded(hit, sample.point) {
                         true => {}
                         false => {
                             let bsdf = hit.bsdf();
-                            let p_ne = pick * to_solid_angle(sample.pdf_area, distance, sample.cos);
+                            let p_ne = pick * to_solid_angle(sample.pdf_area, distance, sample.cos_light);
                             let p_brdf = if light.has_area() { bsdf.pdf(wi) } else { 0.0 };
                             let w = weight(self.settings.technique, p_ne, p_brdf);
                             path.result +=
-                                w * path.throughput * bsdf.eval(wi) * sample.intensity * hit.cos(wi) / p_ne;
+                                w * path.throughput * bsdf.eval(wi) * sample.emitted * hit.cos(wi) / p_ne;
                         }
                     }
                 }
@@ -89,15 +89,14 @@ impl Integrator for PathTracer {
         let technique = self.settings.technique;
         let mut path = Path::start(ray);
         while let Some(hit) = scene.intersect(&path.ray) {
-            if let Some(light) = hit.light() {
-                let emission = light.emission(&hit);
+            if let Some(emission) = hit.emission() {
                 let w = match (path.specular, technique) {
                     (true, _) | (_, Technique::Bsdf) => 1.0,
                     (false, Technique::Nee) => 0.0,
                     (false, Technique::Mis) => {
                         let distance = (hit.point - path.from).length();
                         let pick = 1.0 / scene.lights().len() as f32;
-                        let p_ne = pick * to_solid_angle(emission.pdf_area, distance, emission.cos);
+                        let p_ne = pick * to_solid_angle(emission.pdf_area, distance, emission.cos_light);
                         weight(technique, path.pdf, p_ne)
                     }
                 };

@@ -56,19 +56,18 @@ impl PathTracer {
     }
 
     fn emitted(&self, scene: &Scene, hit: &Hit, previous: Previous) -> Rgb {
-        let light = match hit.light() {
-            Some(light) => light,
+        let emission = match hit.emission() {
+            Some(emission) => emission,
             None => return Rgb::BLACK,
         };
-        let emission = light.emission(hit);
         if previous.specular || self.settings.technique == Technique::Bsdf {
             return emission.radiance;
         }
         if self.settings.technique == Technique::Nee {
             return Rgb::BLACK;
         }
-        let (_, d) = direction(previous.point, hit.point);
-        let p_light = emission.pdf_area / scene.lights().len() as f32 * d * d / emission.cos;
+        let (_, d) = direction_and_distance(previous.point, hit.point);
+        let p_light = emission.pdf_area / scene.lights().len() as f32 * d * d / emission.cos_light;
         emission.radiance * (previous.pdf / (previous.pdf + p_light))
     }
 
@@ -85,12 +84,12 @@ impl PathTracer {
         if scene.occluded(hit, sample.point) {
             return Rgb::BLACK;
         }
-        let (wi, d) = direction(hit.point, sample.point);
+        let (wi, d) = direction_and_distance(hit.point, sample.point);
         let bsdf = hit.bsdf();
-        let geometry = hit.cos(wi) * sample.cos / (d * d);
-        let mut result = bsdf.eval(wi) * sample.intensity * geometry * n as f32 / sample.pdf_area;
+        let geometry = hit.cos(wi) * sample.cos_light / (d * d);
+        let mut result = bsdf.eval(wi) * sample.emitted * geometry * n as f32 / sample.pdf_area;
         if self.settings.technique == Technique::Mis && light.has_area() {
-            let p_light = sample.pdf_area / n as f32 * d * d / sample.cos;
+            let p_light = sample.pdf_area / n as f32 * d * d / sample.cos_light;
             result *= p_light / (p_light + bsdf.pdf(wi));
         }
         result

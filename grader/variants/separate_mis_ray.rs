@@ -20,20 +20,19 @@ impl PathTracer {
 
         let light = &scene.lights()[(sampler.next_1d() * count as f32) as usize % count];
         if let Some(sample) = light.sample_direct(hit.point, sampler) {
-            let (wi, distance) = direction(hit.point, sample.point);
+            let (wi, distance) = direction_and_distance(hit.point, sample.point);
             if !scene.occluded(hit, sample.point) {
-                let pdf = sample.pdf_area * distance * distance / sample.cos / count as f32;
+                let pdf = sample.pdf_area * distance * distance / sample.cos_light / count as f32;
                 let weight =
                     if mis && light.has_area() { pdf / (pdf + bsdf.pdf(wi)) } else { 1.0 };
-                sum += bsdf.eval(wi) * sample.intensity * hit.cos(wi) / pdf * weight;
+                sum += bsdf.eval(wi) * sample.emitted * hit.cos(wi) / pdf * weight;
             }
         }
 
         if mis && let Some(sample) = bsdf.sample(sampler) && !sample.is_delta {
-            if let Some(other) = scene.intersect(&hit.spawn(sample.wi)) && let Some(light) = other.light() {
-                let emission = light.emission(&other);
-                let (_, distance) = direction(hit.point, other.point);
-                let pdf = emission.pdf_area * distance * distance / emission.cos / count as f32;
+            if let Some(other) = scene.intersect(&hit.spawn(sample.wi)) && let Some(emission) = other.emission() {
+                let (_, distance) = direction_and_distance(hit.point, other.point);
+                let pdf = emission.pdf_area * distance * distance / emission.cos_light / count as f32;
                 let weight = sample.pdf / (sample.pdf + pdf);
                 sum += sample.f * emission.radiance * (sample.cos / sample.pdf * weight);
             }
@@ -52,8 +51,8 @@ impl Integrator for PathTracer {
                 Some(hit) => hit,
                 None => return radiance,
             };
-            if add_emission && let Some(light) = hit.light() {
-                radiance += beta * light.emission(&hit).radiance;
+            if add_emission && let Some(emission) = hit.emission() {
+                radiance += beta * emission.radiance;
             }
             if bounce == self.settings.max_bounces {
                 return radiance;

@@ -38,7 +38,7 @@ impl<'a> Rays<'a> {
                 rays.shadow.truncate(RAYS);
                 return Some(rays);
             }
-            // Neighbouring pixels follow each other in a picture; here each is drawn apart, the harder case.
+            // Neighbouring pixels follow each other in an image; here each is drawn apart, the harder case.
             let mut sampler = Sampler::new(1, SIZE, path);
             let (u, v) = sampler.next_2d();
             let (column, row) = (u * SIZE.0 as f32, v * SIZE.1 as f32);

@@ -1,28 +1,43 @@
 //! The camera.
 
-use crate::math::{Vec3, direction};
-use crate::ray::Ray;
-use crate::scene::CameraDescription;
+use serde::{Deserialize, Serialize};
 
-/// A pinhole camera for an image of a given size. Each pixel averages over its own square (box filter).
+use crate::math::{Vec3, direction_and_distance};
+use crate::ray::Ray;
+
+/// A perspective camera.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CameraDescription {
+    /// Position of the pinhole, in world space.
+    pub eye: Vec3,
+    /// The point shown in the centre of the image.
+    pub center: Vec3,
+    /// The up direction; need be neither a unit vector nor perpendicular to the view direction.
+    pub up: Vec3,
+    /// Horizontal field of view, in degrees.
+    pub fov: f32,
+}
+
+/// A pinhole camera for an image of a given size, with a box filter of one pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
     eye: Vec3,
-    /// The direction to the upper left corner of the image, on the plane at distance 1.
+    /// Vector to the upper left corner of the image on the plane at distance 1.
     corner: Vec3,
-    /// One pixel to the right on that plane.
+    /// Vector from one pixel to the next on its right, on that plane.
     right: Vec3,
-    /// One pixel down on that plane.
+    /// Vector from one pixel to the next below it, on that plane.
     down: Vec3,
 }
 
 impl Camera {
-    /// The camera for images of `width × height` square pixels. The field of view spans the width.
+    /// A camera for images of `width × height` square pixels. The field of view is horizontal.
     pub fn new(description: &CameraDescription, width: u32, height: u32) -> Self {
         let CameraDescription { eye, center, up, fov } = *description;
-        let forward = direction(eye, center).0;
-        // Both are unit vectors, so that no length of `up` over- or underflows in their product.
-        let right = direction(Vec3::ZERO, forward.cross(direction(Vec3::ZERO, up).0)).0;
+        let forward = direction_and_distance(eye, center).0;
+        // Both are unit vectors, so that their product cannot overflow or underflow for any length of `up`.
+        let right =
+            direction_and_distance(Vec3::ZERO, forward.cross(direction_and_distance(Vec3::ZERO, up).0)).0;
         let down = forward.cross(right);
         let half_width = (0.5 * fov).to_radians().tan();
         let pixel = 2.0 * half_width / width as f32;
@@ -30,7 +45,7 @@ impl Camera {
         Self { eye, corner, right: pixel * right, down: pixel * down }
     }
 
-    /// The ray through pixel (x, y), counted from the upper left, at the place (u, v) of its square, both in [0, 1).
+    /// The ray through pixel (x, y), counted from the upper left, at the position (u, v) in [0, 1)² within the pixel.
     #[inline]
     pub fn ray(&self, x: u32, y: u32, (u, v): (f32, f32)) -> Ray {
         let on_plane = self.corner + (x as f32 + u) * self.right + (y as f32 + v) * self.down;
@@ -43,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_field_of_view_spans_the_width_and_pixels_are_square() {
+    fn the_field_of_view_is_horizontal_and_pixels_are_square() {
         let description = CameraDescription {
             eye: Vec3::new(1.0, 2.0, 3.0),
             center: Vec3::new(1.0, 2.0, 0.0),

@@ -1,4 +1,4 @@
-//! What a light transport algorithm is.
+//! The interface of light transport algorithms.
 
 use std::fmt;
 use std::str::FromStr;
@@ -12,31 +12,31 @@ use crate::scene::Scene;
 
 /// An estimator of the radiance that arrives along a ray.
 pub trait Integrator: Sync {
-    /// One sample: a random number whose expectation is the radiance that reaches `ray.origin` from
-    /// `ray.direction`, W·sr⁻¹·m⁻².
+    /// One sample of the radiance that arrives at `ray.origin` from `ray.direction`, W·sr⁻¹·m⁻². Its expected value is
+    /// the radiance.
     ///
-    /// All randomness comes from `sampler`; the same sampler gives the same result.
+    /// All randomness comes from `sampler`: equal samplers give equal results.
     fn radiance(&self, scene: &Scene, ray: Ray, sampler: &mut Sampler) -> Rgb;
 }
 
-/// How a path tracer looks for light.
+/// How a path tracer finds light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Technique {
-    /// By hitting it by chance: directions are drawn from the BSDF alone.
+    /// BSDF sampling only: light is found when a path happens to hit it.
     Bsdf,
-    /// By next event estimation: shadow rays to points on lights, wherever they can work.
+    /// Next event estimation wherever it can find the light, hits elsewhere.
     Nee,
-    /// By both at each point, combined by multiple importance sampling.
+    /// Both at each hit point, combined by multiple importance sampling.
     Mis,
 }
 
 impl Technique {
-    /// All of them.
+    /// All techniques.
     pub const ALL: [Self; 3] = [Self::Bsdf, Self::Nee, Self::Mis];
 
-    /// Its name on command lines and in reports.
+    /// The name on command lines, in files and in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Bsdf => "bsdf",
@@ -59,16 +59,16 @@ impl FromStr for Technique {
         Self::ALL
             .into_iter()
             .find(|technique| technique.name() == name)
-            .ok_or_else(|| format!("`{name}` is no technique; there are bsdf, nee, mis"))
+            .ok_or_else(|| format!("unknown technique `{name}`: use bsdf, nee or mis"))
     }
 }
 
-/// What a path tracer is told when it is made.
+/// Settings of a path tracer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
-    /// How to look for light.
+    /// How light is found.
     pub technique: Technique,
-    /// The largest number of times that a path is scattered: 0 shows only lights that the camera sees, 1 direct
-    /// light only. It counts alike for light that is hit by chance and light reached by a shadow ray.
+    /// Maximum number of bounces: 0 = emission only, 1 = direct light. The same limit applies to light that is hit and
+    /// to light that is sampled.
     pub max_bounces: u32,
 }

@@ -1,23 +1,30 @@
 //! **arty**: a small physically based renderer for teaching light transport.
 //!
-//! An [`Integrator`](integrator::Integrator) estimates the radiance that arrives along a ray; all else is here to
-//! serve it. To read the code, follow this order: each module needs only those above it.
+//! An [`Integrator`](integrator::Integrator) estimates the radiance that arrives along a ray; everything else serves
+//! it. Read the modules in this order: each one needs only those above it.
 //!
-//! | module | what it is about |
+//! | module | contents |
 //! |---|---|
 //! | [`math`] | colours, directions, maps from random numbers to directions |
-//! | [`sampler`] | random numbers, a stream for each (seed, pixel, sample) |
+//! | `dedup` | deduplication of geometry |
+//! | `probe` | instrumentation for the grader; without effect in every other build |
+//! | [`sampler`] | random numbers, one stream for each (seed, pixel, sample) |
 //! | [`ray`] | rays |
-//! | [`accel`] | finding the triangle that a ray hits |
+//! | [`accel`] | the acceleration structure: which triangle a ray hits |
 //! | [`bsdf`] | how surfaces scatter light |
 //! | [`light`] | light sources |
 //! | [`camera`] | from pixels to rays |
-//! | [`scene`] | scenes: their files, what they have, what a ray hits in them |
-//! | [`integrator`] | what a light transport algorithm is |
-//! | [`film`], [`render`](mod@render) | gathering samples |
-//! | [`srgb`], `image` | pictures in memory, in files, in a viewer |
-//! | `cli` | the program around all this |
-//! | `probe` | what the grader may script, switch off and count; in no other build |
+//! | [`diagnostic`] | errors and warnings about input files |
+//! | `input` | checks of input files, text files |
+//! | `yaml` | YAML files |
+//! | [`srgb`] | the sRGB transfer curve, exposure |
+//! | [`scene`] | scenes: files, geometry, materials, what a ray hits |
+//! | [`integrator`] | the interface of light transport algorithms |
+//! | [`prelude`] | what an integrator needs, in one import |
+//! | [`film`] | accumulation of samples |
+//! | [`render`](mod@render) | from an integrator to a film |
+//! | `image` | images in memory, in files, in a viewer |
+//! | `cli` | the command line |
 //!
 //! # Units and conventions
 //! Positions and directions are in world space, right-handed. Directions are unit vectors that point away from the
@@ -25,25 +32,38 @@
 //! scene's unit of length. Densities of directions are per solid angle, densities of points on lights per area.
 //! Lights emit from their front only: the side from which their vertices run counter-clockwise.
 
+pub mod math;
+
+mod dedup;
+#[cfg(feature = "probe")]
+pub mod probe;
+// The same names without effect.
+#[cfg(not(feature = "probe"))]
+#[path = "no_probe.rs"]
+mod probe;
+
+pub mod sampler;
+
 pub mod accel;
 pub mod bsdf;
 pub mod camera;
-#[cfg(feature = "cli")]
-pub mod cli;
-pub mod film;
-mod firsts;
-#[cfg(feature = "files")]
-pub mod image;
-pub mod integrator;
 pub mod light;
-pub mod math;
-pub mod prelude;
-#[cfg(feature = "probe")]
-pub mod probe;
 pub mod ray;
-pub mod render;
-pub mod sampler;
+
+pub mod diagnostic;
+#[cfg(feature = "files")]
+mod input;
 pub mod scene;
 pub mod srgb;
 #[cfg(feature = "files")]
 pub mod yaml;
+
+pub mod film;
+pub mod integrator;
+pub mod prelude;
+pub mod render;
+
+#[cfg(feature = "cli")]
+pub mod cli;
+#[cfg(feature = "files")]
+pub mod image;

@@ -2,24 +2,24 @@
 
 use crate::math::Vec3;
 
-/// A half-line: all points `origin + t · direction` with t > 0.
+/// A ray: all points `origin + t · direction` with t > 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it starts, in world space.
+    /// The origin, in world space.
     pub origin: Vec3,
-    /// Where it goes; a unit vector, so that t is a distance in scene units.
+    /// The direction: a unit vector, so that t is a distance in scene units.
     pub direction: Vec3,
-    /// The triangle that it leaves and does not hit, if it was spawned, in whatever direction it is turned later.
-    pub(crate) leaves: Option<u32>,
+    /// Index of the triangle that the ray cannot hit: the one it was spawned on, if any.
+    pub(crate) exclude: Option<u32>,
 }
 
 impl Ray {
-    /// A ray from a point into a (unit) direction.
+    /// A ray from a point in a unit direction.
     ///
-    /// To leave a surface use [`Hit::spawn`](crate::scene::Hit::spawn), which takes care that the ray does not hit
-    /// that surface again.
+    /// For a ray that starts on a surface use [`Hit::spawn`](crate::scene::Hit::spawn), which prevents it from hitting that
+    /// surface again.
     #[inline]
     pub fn new(origin: Vec3, direction: Vec3) -> Self {
-        Self { origin, direction, leaves: None }
+        Self { origin, direction, exclude: None }
     }
 }

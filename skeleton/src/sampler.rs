@@ -1,10 +1,12 @@
-//! Random numbers, one stream for each (seed, pixel, sample).
+//! Random numbers: one stream for each (seed, pixel, sample).
+
+use crate::probe::{self, Call};
 
 /// The random numbers of one path.
 ///
-/// Each triple (seed, pixel, sample) has a stream of its own, worked out from the triple alone. So any path can be
-/// computed again by its number, images do not depend on the number of threads or the order of the pixels, and
-/// renderings with different seeds are independent.
+/// Each triple (seed, pixel, sample) has its own stream, which depends on nothing else. Any path can therefore be replayed,
+/// images do not depend on the number of threads or the order of the pixels, and renderings with different seeds are
+/// independent.
 ///
 /// The generator is PCG-XSH-RR 64/32 (O'Neill, "PCG: A Family of Simple Fast Space-Efficient Statistically Good
 /// Algorithms for Random Number Generation", HMC-CS-2014-0905).
@@ -21,47 +23,42 @@ impl Sampler {
         let pixel = u64::from(y) << 32 | u64::from(x);
         let key = mix(mix(seed.wrapping_add(GOLDEN)).wrapping_add(pixel.wrapping_mul(GOLDEN)));
         let state = mix(key.wrapping_add(sample.wrapping_mul(GOLDEN)));
-        // The increment tells streams apart whose states happen to meet; PCG wants it odd.
+        // The increment separates streams whose states happen to coincide; PCG requires it to be odd.
         Self { state, increment: mix(state ^ key) | 1 }
     }
 
-    /// The next number, uniform in [0, 1): a multiple of 2⁻²⁴, never 1.
+    /// The next random number: uniform in [0, 1), a multiple of 2⁻²⁴.
     #[inline]
     pub fn next_1d(&mut self) -> f32 {
         let number = self.own();
-        #[cfg(feature = "probe")]
-        crate::probe::record(|| call_1d(number));
+        probe::record(|| recorded_1d(number));
         number
     }
 
-    /// The next two numbers, each uniform in [0, 1), independent of each other.
+    /// The next two random numbers, independent and uniform in [0, 1).
     #[inline]
     pub fn next_2d(&mut self) -> (f32, f32) {
         let numbers = (self.own(), self.own());
-        #[cfg(feature = "probe")]
-        crate::probe::record(|| call_2d(numbers));
+        probe::record(|| recorded_2d(numbers));
         numbers
     }
 
-    /// A number for an integrator.
+    /// A random number for an integrator.
     #[inline]
     fn own(&mut self) -> f32 {
-        let number = self.draw();
-        #[cfg(feature = "probe")]
-        let number = crate::probe::place(number);
-        number
+        probe::stratified(self.draw())
     }
 
-    /// The numbers that the framework itself takes, inside `sample` and `sample_direct`.
+    /// Two random numbers for the framework itself, as in `Bsdf::sample` and `Light::sample_direct`.
     #[inline]
     pub(crate) fn draw_2d(&mut self) -> (f32, f32) {
         (self.draw(), self.draw())
     }
 
-    /// One number for the framework itself.
+    /// One random number for the framework itself.
     #[inline]
     pub(crate) fn draw(&mut self) -> f32 {
-        // The upper 24 bits: as many as a float's significand holds, so that no rounding can make it 1.
+        // The upper 24 bits, as many as the significand of an f32 has: rounding cannot make it 1.
         (self.next_u32() >> 8) as f32 * (1.0 / 16_777_216.0)
     }
 
@@ -74,22 +71,12 @@ impl Sampler {
     }
 }
 
-#[cfg(feature = "probe")]
-fn call_1d(number: f32) -> crate::probe::Call {
-    crate::probe::Call::new("Sampler::next_1d").got("number", number)
-}
-
-#[cfg(feature = "probe")]
-fn call_2d(numbers: (f32, f32)) -> crate::probe::Call {
-    crate::probe::Call::new("Sampler::next_2d").got("numbers", numbers)
-}
-
-/// The seed of one of many independent renderings that belong to the same `seed`.
+/// The seed of one of many independent batches of a rendering with the given `seed`.
 pub fn batch_seed(seed: u64, batch: u64) -> u64 {
     mix(mix(seed ^ GOLDEN).wrapping_add(batch.wrapping_mul(GOLDEN)))
 }
 
-/// 2⁶⁴ divided by the golden ratio: multiples of it are spread evenly.
+/// 2⁶⁴ divided by the golden ratio, whose multiples are evenly distributed.
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// The finaliser of SplitMix64 (Steele, Lea, Flood, OOPSLA 2014; constants by D. Stafford, variant 13): every bit
@@ -101,12 +88,20 @@ fn mix(mut z: u64) -> u64 {
     z ^ (z >> 31)
 }
 
+fn recorded_1d(number: f32) -> Call {
+    Call::new("Sampler::next_1d").got("number", number)
+}
+
+fn recorded_2d(numbers: (f32, f32)) -> Call {
+    Call::new("Sampler::next_2d").got("numbers", numbers)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn the_generator_gives_the_published_numbers() {
+    fn the_generator_reproduces_the_published_numbers() {
         // The demonstration of the PCG library: pcg32_srandom(42, 54).
         let mut sampler = Sampler { state: 0, increment: 54 << 1 | 1 };
         sampler.next_u32();
@@ -117,13 +112,13 @@ mod tests {
     }
 
     #[test]
-    fn a_number_never_reaches_one() {
+    fn numbers_are_less_than_one() {
         let largest = (u32::MAX >> 8) as f32 * (1.0 / 16_777_216.0);
         assert!(largest < 1.0);
     }
 
     #[test]
-    fn seed_pixel_and_sample_each_make_a_stream_of_their_own() {
+    fn each_seed_pixel_and_sample_has_its_own_stream() {
         let first = |seed, pixel, sample| Sampler::new(seed, pixel, sample).next_u32();
         let mut seen = std::collections::HashSet::new();
         for seed in 0..8 {

@@ -16,13 +16,13 @@ pub fn srgb_decode(encoded: f32) -> f32 {
     if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
-/// The nearest of the 256 levels of an sRGB picture: everything up to 0 (and NaN) is level 0, everything
+/// The nearest of the 256 levels of an sRGB image: everything up to 0 (and NaN) is level 0, everything
 /// from 1 (and infinity) is level 255.
 pub fn linear_to_srgb_u8(linear: f32) -> u8 {
     (srgb_encode(linear) * 255.0).round() as u8
 }
 
-/// The linear value of one of the 256 levels of an sRGB picture.
+/// The linear value of one of the 256 levels of an sRGB image.
 pub fn srgb_to_linear_u8(level: u8) -> f32 {
     // Textures ask for this at every look-up, and there are only so many answers.
     static LINEAR: LazyLock<[f32; 256]> =

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use serde::de::DeserializeOwned;
 
-use crate::scene::Diagnostic;
-use crate::scene::file::text;
+use crate::diagnostic::Diagnostic;
+use crate::input;
 
 /// More than any file written by hand or by a script needs.
 const MAX_BYTES: u64 = 4 << 20;
@@ -18,7 +18,7 @@ const MAX_DEPTH: usize = 256;
 /// # Errors
 /// The first thing in it that is not what `T` expects, with the line.
 pub fn read<T: DeserializeOwned>(path: &Path) -> Result<(T, String), Diagnostic> {
-    let text = text::read(path, MAX_BYTES, None)?;
+    let text = input::read(path, MAX_BYTES, None)?;
     if text.lines().all(|line| line.trim().is_empty() || line.starts_with('#')) {
         return Err(Diagnostic::about(path, "is empty"));
     }

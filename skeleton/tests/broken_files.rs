@@ -1,14 +1,14 @@
-//! Broken scene files, meshes, materials and images: each must be refused with a message that helps.
+//! Broken scene files, meshes, materials and images are refused with a helpful message.
 
 #![cfg(feature = "files")]
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use arty::scene::Diagnostic;
+use arty::diagnostic::Diagnostic;
 use arty::scene::file::load;
 
-/// A file in `tests/broken`, the line that is to blame, and words that the message must have.
+/// A file in `tests/broken`, the line of the error, and words that the message must contain.
 type Case = (&'static str, Option<usize>, &'static [&'static str]);
 
 #[rustfmt::skip]
@@ -16,7 +16,7 @@ const CASES: &[Case] = &[
     ("empty.yml", None, &["is empty"]),
     ("only_a_comment.yml", None, &["is empty"]),
     ("control_character.yml", Some(2), &["control characters"]),
-    ("very_long_value.yml", Some(2), &["camera.fov", "…", "angle of view"]),
+    ("very_long_value.yml", Some(2), &["camera.fov", "…", "field of view"]),
     ("not_utf8.yml", Some(2), &["UTF-8"]),
     ("syntax.yml", None, &[]),
     ("tab_indent.yml", Some(2), &["tab"]),
@@ -30,7 +30,7 @@ const CASES: &[Case] = &[
     ("camera_unknown_key.yml", Some(4), &["`centre`", "`center`"]),
     ("camera_no_fov.yml", Some(2), &["missing", "`fov`"]),
     ("fov_180.yml", Some(2), &["camera.fov", "180"]),
-    ("fov_is_a_word.yml", Some(2), &["wide", "angle of view"]),
+    ("fov_is_a_word.yml", Some(2), &["wide", "field of view"]),
     ("eye_is_center.yml", Some(2), &["`eye`", "`center`", "same point"]),
     ("up_is_parallel.yml", Some(2), &["`up`", "parallel"]),
     ("up_is_zero.yml", Some(2), &["`up`", "zero"]),
@@ -38,7 +38,7 @@ const CASES: &[Case] = &[
     ("too_large_for_single.yml", Some(2), &["camera.eye", "finite"]),
     ("two_coordinates.yml", Some(2), &["camera.eye", "length 2", "3"]),
     ("unknown_light.yml", Some(5), &["`sun`", "`point_light`", "`spot_light`"]),
-    ("negative_color.yml", Some(6), &["color", "-1", "not negative"]),
+    ("negative_color.yml", Some(6), &["color", "-1", "non-negative"]),
     ("spot_inner_greater.yml", Some(4), &["`inner` is 30", "`outer` is 20"]),
     ("spot_outer_zero.yml", Some(4), &["`outer` is 0"]),
     ("spot_no_direction.yml", Some(4), &["`direction`", "zero"]),
@@ -69,16 +69,16 @@ const CASES: &[Case] = &[
     ("some_colours.obj", Some(2), &["colour"]),
     ("normal_two_numbers.obj", Some(4), &["`vn`", "has 2"]),
     ("uv_one_number.obj", Some(4), &["`vt`", "2 numbers"]),
-    ("index_zero.obj", Some(4), &["index 0", "start from 1"]),
-    ("index_too_large.obj", Some(4), &["vertex 4", "has 3"]),
-    ("index_of_uv_too_large.obj", Some(5), &["texture coordinate 2", "has 1"]),
-    ("index_of_normal_missing.obj", Some(4), &["normal 1", "has 0"]),
+    ("index_zero.obj", Some(4), &["start at 1"]),
+    ("index_too_large.obj", Some(4), &["vertex 4", "only 3"]),
+    ("index_of_uv_too_large.obj", Some(5), &["texture coordinate 2", "only 1"]),
+    ("index_of_normal_missing.obj", Some(4), &["normal 1", "only 0"]),
     ("relative_index_too_far.obj", Some(4), &["vertex -4", "3"]),
     ("index_overflow.obj", Some(4), &["whole number"]),
     ("index_is_a_word.obj", Some(4), &["`three`"]),
     ("four_parts.obj", Some(4), &["three parts"]),
     ("corner_without_vertex.obj", Some(4), &[]),
-    ("mixed_corners.obj", Some(5), &["same parts"]),
+    ("mixed_corners.obj", Some(5), &["same form"]),
     ("face_two_corners.obj", Some(4), &["3 corners", "has 2"]),
     ("face_empty.obj", Some(4), &["3 corners", "has 0"]),
     ("usemtl_nothing.obj", Some(4), &["`usemtl`"]),
@@ -109,14 +109,14 @@ const CASES: &[Case] = &[
     ("truncated.tga", None, &["image"]),
 ];
 
-/// Files that are there for others to name.
+/// Intact files that others refer to.
 const INTACT: [&str; 2] = [".gitattributes", "good.mtl"];
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/broken")
 }
 
-/// Loads a scene in which `file` plays the part that its extension says.
+/// Loads a scene that uses `file` according to its extension.
 fn load_with(file: &Path) -> Result<arty::scene::file::Loaded, Diagnostic> {
     let scratch = tempfile::tempdir().expect("a temporary folder");
     let write = |name: &str, text: String| {
@@ -144,7 +144,7 @@ fn load_with(file: &Path) -> Result<arty::scene::file::Loaded, Diagnostic> {
 }
 
 #[test]
-fn every_broken_file_is_refused_with_its_name_its_line_and_the_reason() {
+fn every_broken_file_is_refused_with_its_name_line_and_reason() {
     let mut problems = Vec::new();
     for (name, line, words) in CASES {
         let file = folder().join(name);
@@ -163,7 +163,7 @@ fn every_broken_file_is_refused_with_its_name_its_line_and_the_reason() {
 }
 
 #[test]
-fn every_file_of_the_folder_is_tested() {
+fn every_file_in_the_folder_is_tested() {
     let there: BTreeSet<String> = std::fs::read_dir(folder())
         .expect("the folder")
         .map(|entry| entry.expect("an entry").file_name().into_string().expect("a name"))
@@ -174,7 +174,7 @@ fn every_file_of_the_folder_is_tested() {
 }
 
 #[test]
-fn an_image_that_is_cut_off_anywhere_is_refused() {
+fn truncated_images_are_refused() {
     let scratch = tempfile::tempdir().expect("a temporary folder");
     let picture = image::RgbImage::from_fn(40, 30, |x, y| image::Rgb([(6 * x) as u8, (8 * y) as u8, 77]));
     for name in ["cut.jpg", "cut.png", "cut.bmp", "cut.tga"] {
@@ -192,14 +192,14 @@ fn an_image_that_is_cut_off_anywhere_is_refused() {
 }
 
 #[test]
-fn what_is_no_file_or_too_large_is_refused() {
+fn missing_files_folders_and_oversized_files_are_refused() {
     let scratch = tempfile::tempdir().expect("a temporary folder");
     let missing = load(&scratch.path().join("missing.yml")).expect_err("it is missing");
     assert!(missing.message.contains("no such file"), "{missing}");
     let is_folder = load(scratch.path()).expect_err("it is a folder");
     assert!(is_folder.message.contains("folder"), "{is_folder}");
 
-    // Sparse files: they take no room on the disk.
+    // Sparse files take no disk space.
     for (name, bytes) in
         [("huge.yml", 5 << 20), ("huge.obj", 2 << 30), ("huge.mtl", 1 << 30), ("huge.png", 2 << 30)]
     {
@@ -212,7 +212,7 @@ fn what_is_no_file_or_too_large_is_refused() {
 }
 
 #[test]
-fn a_missing_file_is_reported_with_the_place_that_names_it() {
+fn a_missing_file_is_reported_with_the_place_where_it_is_named() {
     let scratch = tempfile::tempdir().expect("a temporary folder");
     for (name, place) in [("no.obj", "scene.yml:1"), ("no.mtl", "scene.obj:1"), ("no.png", "scene.mtl:2")] {
         let file = scratch.path().join(name);

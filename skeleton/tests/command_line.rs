@@ -1,4 +1,4 @@
-//! The program as its users run it.
+//! The program, run as a process.
 
 #![cfg(feature = "cli")]
 
@@ -8,7 +8,7 @@ use std::process::{Command, Output, Stdio};
 
 use arty::image::exr::ExrFile;
 
-/// A triangle in front of the camera that emits, and a point light that chance never finds.
+/// An emissive triangle in front of the camera and a point light, which BSDF sampling never finds.
 const SCENE: &str = "\
 meshes: []
 camera: !perspective_camera { eye: [0, 0, 4], center: [0, 0, 0], up: [0, 1, 0], fov: 40 }
@@ -17,10 +17,10 @@ lights:
   - !point_light { position: [0, 2, 1], color: [10, 10, 10] }
 defaults: { width: 40, height: 30, max_bounces: 3 }
 ";
-/// Its last line draws a line, which is left out with a warning.
+/// Its last statement is a line, which is ignored with a warning.
 const FLOOR: &str = "v -2 -1 -2\nv 2 -1 -2\nv 2 -1 2\nv -2 -1 2\nf 4 3 2 1\nl 1 2\n";
 
-/// A folder to run the program in, with a scene.
+/// A working folder with a scene.
 struct Folder(tempfile::TempDir);
 
 impl Folder {
@@ -38,7 +38,7 @@ impl Folder {
         fs::write(self.path(name), text).expect("writing works");
     }
 
-    /// The program with arguments that are separated by spaces.
+    /// The program with arguments separated by spaces.
     fn command(&self, arguments: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_arty"));
         command.current_dir(self.0.path()).args(arguments.split_whitespace()).stdin(Stdio::null());
@@ -60,7 +60,7 @@ impl Folder {
         ExrFile::read(&self.path(name)).expect("an OpenEXR file")
     }
 
-    /// The names of all files but the scene, hidden ones included.
+    /// The names of all files except the scene, hidden ones included.
     fn files(&self) -> Vec<String> {
         let entries = fs::read_dir(self.0.path()).expect("the folder can be listed");
         let names = entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned());
@@ -70,7 +70,7 @@ impl Folder {
     }
 }
 
-/// What the program left behind.
+/// Exit status and output of the program.
 struct Run {
     status: Option<i32>,
     stdout: String,
@@ -88,7 +88,7 @@ impl From<Output> for Run {
 }
 
 #[test]
-fn a_picture_is_saved_beside_whoever_asked_for_it() {
+fn an_image_is_saved_in_the_current_folder() {
     let folder = Folder::new();
     let run = folder.render("--algo=pt scene.yml --samples=2");
     assert_eq!(folder.files(), ["scene.png"]);
@@ -111,7 +111,7 @@ fn exposure_brightens_the_png() {
 }
 
 #[test]
-fn an_openexr_file_says_where_it_comes_from() {
+fn an_openexr_file_contains_its_provenance() {
     let folder = Folder::new();
     folder.render("scene.yml -sx 20 -sy=10 -s 16 --seed=7 --technique=nee --max-bounces=2 -o a.exr -o b.png");
     assert_eq!(folder.files(), ["a.exr", "b.png"]);
@@ -134,10 +134,7 @@ fn an_openexr_file_says_where_it_comes_from() {
     assert_eq!(file.metadata["arty:scene_hash"].len(), 64);
     assert!(file.metadata["arty:render_seconds"].parse::<f64>().is_ok_and(|seconds| seconds > 0.0));
     let folder_name = folder.0.path().to_string_lossy();
-    assert!(
-        !file.metadata.values().any(|value| value.contains(&*folder_name)),
-        "nothing about this computer"
-    );
+    assert!(!file.metadata.values().any(|value| value.contains(&*folder_name)), "nothing about this machine");
 
     // A pixel at the edge of the triangle: k of 16 samples see radiance 2, so the variance of the mean is
     // 4 · k/16 · (1 − k/16) / 15.
@@ -158,11 +155,11 @@ fn one_sample_has_no_variance() {
 }
 
 #[test]
-fn neither_threads_nor_passes_change_the_picture() {
+fn neither_threads_nor_passes_change_the_image() {
     let folder = Folder::new();
     folder.render("scene.yml -s 8 --threads=1 -o one.exr");
     folder.render("scene.yml -s 8 --threads=2 -o two.exr");
-    // The time limit is not reached, but it is another way to divide the work.
+    // The time limit is not reached, but it divides the work differently.
     folder.render("scene.yml -s 8 --time=600 --threads=3 -o three.exr");
     folder.render("scene.yml -s 8 --seed=1 -o other.exr");
     let channels = |name| folder.exr(name).channels;
@@ -172,7 +169,7 @@ fn neither_threads_nor_passes_change_the_picture() {
 }
 
 #[test]
-fn time_is_a_limit_too() {
+fn rendering_can_be_limited_by_time() {
     let folder = Folder::new();
     folder.render("scene.yml -t 0.3 -o a.exr");
     let metadata = folder.exr("a.exr").metadata;
@@ -181,7 +178,7 @@ fn time_is_a_limit_too() {
 }
 
 #[test]
-fn debug_pictures_show_surfaces() {
+fn debug_images_show_surfaces() {
     let folder = Folder::new();
     folder.write("floor.obj", FLOOR);
     folder.write("scene.yml", &SCENE.replace("[]", "[floor.obj]"));
@@ -198,7 +195,7 @@ fn debug_pictures_show_surfaces() {
 }
 
 #[test]
-fn warnings_of_the_scene_are_passed_on_with_file_and_line() {
+fn scene_warnings_are_printed_with_file_and_line() {
     let folder = Folder::new();
     folder.write("floor.obj", FLOOR);
     folder.write("scene.yml", &SCENE.replace("[]", "[floor.obj]"));
@@ -212,12 +209,12 @@ fn warnings_of_the_scene_are_passed_on_with_file_and_line() {
 }
 
 #[test]
-fn lights_that_chance_cannot_find_are_pointed_out() {
+fn lights_that_bsdf_sampling_cannot_find_are_noted() {
     let folder = Folder::new();
-    let note = "note: a path never hits a point light by chance";
+    let note = "note: BSDF sampling never finds a point light";
     let run = folder.render("scene.yml -s 1 --technique=bsdf");
     assert!(
-        run.stderr.contains(note) && run.stderr.contains("1 point-like light will be missing"),
+        run.stderr.contains(note) && run.stderr.contains("1 point light will be missing"),
         "{}",
         run.stderr
     );
@@ -234,7 +231,7 @@ fn features_are_printed_and_nothing_is_rendered() {
     folder.write("scene.yml", &SCENE.replace("[]", "[floor.obj]"));
     let run = folder.render("scene.yml --features -o missing/x.png");
     for line in
-        ["image size         40 x 30", "max bounces        3", "triangles          3", "lights with area   1"]
+        ["image size         40 x 30", "max bounces        3", "triangles          3", "area lights        1"]
     {
         assert!(run.stdout.lines().any(|printed| printed == line), "{line}: {}", run.stdout);
     }
@@ -246,11 +243,11 @@ fn features_are_printed_and_nothing_is_rendered() {
 }
 
 #[test]
-fn what_is_wrong_is_said_before_anything_is_rendered() {
+fn errors_are_reported_before_rendering() {
     let folder = Folder::new();
     folder.write("broken.yml", &SCENE.replace("fov: 40", "fov: 400"));
     fs::create_dir(folder.path("folder.png")).expect("a folder");
-    // With so many samples, rendering first would not end within the patience of anyone.
+    // Rendering that many samples first would take forever.
     let cases = [
         ("scene.yml -s 999999999 -o x.jpg", "error: invalid value 'x.jpg'"),
         (
@@ -271,13 +268,13 @@ fn what_is_wrong_is_said_before_anything_is_rendered() {
         assert!(run.stderr.starts_with(message), "{arguments}: {}", run.stderr);
         assert_eq!(run.stdout, "");
     }
-    assert_eq!(folder.files(), ["broken.yml", "folder.png"], "nothing was left behind");
+    assert_eq!(folder.files(), ["broken.yml", "folder.png"], "no file was created");
 }
 
 #[test]
-fn a_viewer_that_is_not_there_is_one_warning() {
+fn an_unreachable_viewer_gives_one_warning() {
     let folder = Folder::new();
-    // Port 1 needs the rights of the system, and nobody listens there.
+    // Port 1 is privileged, and nothing listens there.
     let run = folder.render("scene.yml -t 1.5 --tev=127.0.0.1:1 --quiet");
     assert_eq!(run.stderr.matches("warning: the tev viewer at 127.0.0.1:1 cannot be reached").count(), 1);
     assert_eq!(run.stderr.lines().count(), 1);
@@ -294,7 +291,7 @@ fn help_and_version_go_to_stdout() {
 
 #[cfg(unix)]
 #[test]
-fn an_interruption_saves_what_is_there() {
+fn an_interruption_saves_the_samples_so_far() {
     use std::io::{BufRead, BufReader, Read};
 
     let folder = Folder::new();
@@ -343,7 +340,7 @@ fn the_error_against_a_reference_is_printed_and_saved() {
 }
 
 #[test]
-fn a_reference_of_another_size_or_kind_is_refused_before_anything_is_rendered() {
+fn an_unusable_reference_is_refused_before_rendering() {
     let folder = Folder::new();
     folder.render("scene.yml --width=20 --samples=1 -o reference.exr");
     for (arguments, expected) in [

@@ -1,8 +1,7 @@
-//! Readers on files that somebody has damaged: each ends with a scene or one clear error, never with a panic, and soon.
+//! Readers on damaged files: each one returns a scene or a single clear error, quickly and without a panic.
 //!
 //! The corpus is committed: the small scenes of `scenes/extreme/`, the broken files of `tests/broken/`, and one EXR file.
-//! Each case damages one of its files in a few places. Cases are the same in each run but for those that failed before,
-//! and their number bounds the time: some seconds in all.
+//! Each case damages one of these files in a few places. The cases are the same in every run and take some seconds.
 
 #![cfg(feature = "files")]
 
@@ -16,22 +15,22 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::{Config, RngAlgorithm, RngSeed};
 
-/// What is done to a file.
+/// A modification of a file.
 #[derive(Clone, Debug)]
 enum Damage {
-    /// One byte becomes another.
+    /// Replaces a byte.
     Set(Index, u8),
-    /// A piece is cut out.
+    /// Removes a piece.
     Cut(Index, usize),
-    /// A piece stands there twice.
+    /// Duplicates a piece.
     Repeat(Index, usize),
-    /// Something is put in that readers take for something.
+    /// Inserts a token of [`WORDS`].
     Insert(Index, usize),
-    /// The rest is missing.
+    /// Truncates the file.
     End(Index),
 }
 
-/// What readers take for something.
+/// Tokens with a meaning in one of the formats.
 const WORDS: [&str; 22] = [
     "-1",
     "0",
@@ -114,7 +113,7 @@ fn project() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// The files of a folder with one of these endings, small ones only.
+/// The small files in a folder with one of these extensions.
 fn corpus(folder: &Path, endings: &[&str]) -> Vec<(String, Vec<u8>)> {
     let mut files: Vec<_> = std::fs::read_dir(folder)
         .expect("the corpus is there")
@@ -130,7 +129,7 @@ fn corpus(folder: &Path, endings: &[&str]) -> Vec<(String, Vec<u8>)> {
     files
 }
 
-/// A folder with a scene of all kinds, one file of which is damaged.
+/// The files of a scene that uses all features.
 fn scene_folder() -> Vec<(&'static str, Vec<u8>)> {
     let extreme = project().join("scenes/extreme");
     let read = |name: &str| std::fs::read(extreme.join(name)).expect("the corpus is there");
@@ -148,7 +147,7 @@ fn scene_folder() -> Vec<(&'static str, Vec<u8>)> {
     ]
 }
 
-/// Reads a scene and, if that is possible, builds it.
+/// Reads a scene and builds it if it is valid.
 fn try_scene(path: &Path) {
     match load(path) {
         Ok(loaded) => {
@@ -179,7 +178,7 @@ proptest! {
     }
 
     #[test]
-    fn broken_files_that_are_broken_once_more_are_errors_too(
+    fn broken_files_with_more_damage_are_errors(
         file in any::<Index>(),
         damages in vec(damage(), 1..3),
     ) {
@@ -202,7 +201,7 @@ proptest! {
     }
 
     #[test]
-    fn a_damaged_exr_file_is_a_picture_or_one_clear_error(damages in vec(damage(), 1..6)) {
+    fn a_damaged_exr_file_is_an_image_or_one_clear_error(damages in vec(damage(), 1..6)) {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let path = folder.path().join("a.exr");
         let bytes = std::fs::read(project().join("references/area_plane.exr")).expect("the corpus is there");
@@ -218,7 +217,7 @@ proptest! {
 }
 
 #[test]
-fn the_corpus_is_read_where_it_is_not_damaged() {
+fn the_undamaged_corpus_can_be_read() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     for (name, bytes) in scene_folder() {
         std::fs::write(folder.path().join(name), bytes).expect("it can be written");

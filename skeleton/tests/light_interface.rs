@@ -6,7 +6,7 @@ mod common;
 use std::f64::consts::PI;
 
 use arty::light::Light;
-use arty::math::{Rgb, Vec3, direction};
+use arty::math::{Rgb, Vec3, direction_and_distance};
 use arty::ray::Ray;
 use arty::sampler::Sampler;
 use arty::scene::{LightDescription, Material, Scene};
@@ -43,7 +43,7 @@ fn intensity(light: &Light, w: Vec3) -> f64 {
     let center = if light.has_area() { TRIANGLE[0] } else { POSITION };
     light
         .sample_direct(center + 1e4 * w, &mut sampler)
-        .map_or(0.0, |sample| f64::from(sample.intensity.luminance() * sample.cos / sample.pdf_area))
+        .map_or(0.0, |sample| f64::from(sample.emitted.luminance() * sample.cos_light / sample.pdf_area))
 }
 
 #[test]
@@ -85,7 +85,7 @@ fn a_spot_light_sends_all_its_power_into_its_cone() {
         );
         let towards = |w: Vec3| {
             let sample = light.sample_direct(w, &mut Sampler::new(1, (0, 0), 0));
-            sample.map_or(0.0, |sample| f64::from(sample.intensity.luminance()))
+            sample.map_or(0.0, |sample| f64::from(sample.emitted.luminance()))
         };
         let edge = |degrees: f32| 2.0 * (0.5 * f64::from(degrees).to_radians()).sin().powi(2);
         let total: f64 = [(0.0, edge(inner)), (edge(inner), edge(outer)), (edge(outer), 2.0)]
@@ -151,9 +151,9 @@ fn points_on_a_triangle_come_with_their_density_and_cosine() {
             assert!((q - p).cross(sample.point - p).dot(normal) > -1e-6, "within its edges");
         }
         assert!((sample.pdf_area * area - 1.0).abs() < 1e-6);
-        let cos = normal.dot(direction(sample.point, from).0);
-        assert!((sample.cos - cos).abs() < 1e-6 && sample.cos > 0.0 && sample.cos <= 1.0);
-        assert_eq!(sample.intensity, Rgb::new(1.0, 2.0, 3.0));
+        let cos = normal.dot(direction_and_distance(sample.point, from).0);
+        assert!((sample.cos_light - cos).abs() < 1e-6 && sample.cos_light > 0.0 && sample.cos_light <= 1.0);
+        assert_eq!(sample.emitted, Rgb::new(1.0, 2.0, 3.0));
     }
 }
 
@@ -167,15 +167,19 @@ fn hitting_a_point_tells_the_same_as_drawing_it() {
         let from = TRIANGLE[1] + 3.0 * w;
         let Some(sample) = light.sample_direct(from, &mut sampler) else { continue };
         // Along the surface and at its rim a rounding decides whether a ray hits.
-        if sample.cos < 0.01 {
+        if sample.cos_light < 0.01 {
             continue;
         }
-        let Some(hit) = scene.intersect(&Ray::new(from, direction(from, sample.point).0)) else { continue };
-        let there = hit.light().expect("it is seen from its front");
-        let emission = there.emission(&hit);
-        assert_eq!((there.index(), emission.radiance), (light.index(), sample.intensity));
+        let Some(hit) = scene.intersect(&Ray::new(from, direction_and_distance(from, sample.point).0)) else {
+            continue;
+        };
+        let emission = hit.emission().expect("it is seen from its front");
+        assert_eq!((emission.light.index(), emission.radiance), (light.index(), sample.emitted));
         assert_eq!(emission.pdf_area, sample.pdf_area);
-        assert!((emission.cos - sample.cos).abs() < 1e-5 && (hit.point - sample.point).length() < 1e-4);
+        assert!(
+            (emission.cos_light - sample.cos_light).abs() < 1e-5
+                && (hit.point - sample.point).length() < 1e-4
+        );
         seen += 1;
     }
     assert!(seen > 900, "{seen}");
@@ -188,7 +192,7 @@ fn lights_shine_from_their_front_only() {
     let middle = (TRIANGLE[0] + TRIANGLE[1] + TRIANGLE[2]) / 3.0;
     let front = scene.intersect(&Ray::new(middle + normal, -normal)).expect("it is hit from the front");
     let back = scene.intersect(&Ray::new(middle - normal, normal)).expect("it is hit from the back");
-    assert!(front.light().is_some() && back.light().is_none());
+    assert!(front.emission().is_some() && back.emission().is_none());
     // Triangle lights reflect nothing, from either side.
     let mut sampler = Sampler::new(4, (0, 0), 0);
     for hit in [front, back] {
@@ -212,8 +216,8 @@ fn a_light_of_a_mesh_reflects_too_and_comes_after_the_listed_ones() {
     assert!(scene.lights().iter().enumerate().all(|(index, light)| light.index() == index));
     let hit =
         scene.intersect(&Ray::new(Vec3::new(0.3, 0.1, 0.0), Vec3::NEG_Z)).expect("the quad is in the way");
-    let light = hit.light().expect("it emits");
-    assert!(light.index() >= 2 && light.emission(&hit).radiance == Rgb::gray(4.0));
+    let emission = hit.emission().expect("it emits");
+    assert!(emission.light.index() >= 2 && emission.radiance == Rgb::gray(4.0));
     assert!((hit.bsdf().eval(Vec3::Z).g * std::f32::consts::PI - 0.5).abs() < 1e-6);
 }
 
@@ -258,15 +262,15 @@ fn a_light_facing_both_ways_is_hit_and_sampled_from_both_sides() {
     for (side, radiance) in [(1.0, 1.0), (-1.0, 2.0)] {
         let from = Vec3::new(0.3, 0.4, side);
         let hit = scene.intersect(&Ray::new(from, Vec3::new(0.0, 0.0, -side))).expect("the square is there");
-        let light = hit.light().expect("each side is a light");
-        assert_eq!(light.emission(&hit).radiance, Rgb::gray(radiance));
+        let emission = hit.emission().expect("each side is a light");
+        assert_eq!(emission.radiance, Rgb::gray(radiance));
         let seen: Vec<_> = scene
             .lights()
             .iter()
             .filter_map(|light| light.sample_direct(from, &mut Sampler::new(0, (0, 0), 0)))
             .collect();
         assert_eq!(seen.len(), 2, "the two triangles that face this side");
-        assert!(seen.iter().all(|sample| sample.intensity == Rgb::gray(radiance)));
+        assert!(seen.iter().all(|sample| sample.emitted == Rgb::gray(radiance)));
     }
 }
 
@@ -276,7 +280,7 @@ fn of_two_lights_in_the_same_place_only_the_one_that_can_be_hit_is_left() {
     assert_eq!(scene.lights().len(), 2);
     assert!(scene.lights().iter().enumerate().all(|(index, light)| light.index() == index));
     let hit = scene.intersect(&Ray::new(Vec3::new(0.3, 0.4, 1.0), Vec3::NEG_Z)).expect("the square is there");
-    let light = hit.light().expect("it is a light");
-    assert_eq!(light.emission(&hit).radiance, Rgb::WHITE);
+    let emission = hit.emission().expect("it is a light");
+    assert_eq!(emission.radiance, Rgb::WHITE);
     assert!(scene.warnings()[0].contains("the first counts"));
 }

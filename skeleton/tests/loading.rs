@@ -1,4 +1,4 @@
-//! Files that are right: what they say must arrive in the description.
+//! Valid files: their contents arrive in the description.
 
 #![cfg(feature = "files")]
 
@@ -13,7 +13,7 @@ const CAMERA: &str =
     "camera: !perspective_camera { eye: [0, 1, 4], center: [0, 1, 0], up: [0, 1, 0], fov: 40 }\n";
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
-/// Files of a scene that exist as long as this does.
+/// Temporary files of a scene.
 struct Files(tempfile::TempDir);
 
 impl Files {
@@ -50,7 +50,7 @@ fn transformed(steps: &str, obj: &str) -> Mesh {
     Files::new(&[("scene.yml", &scene), ("a.obj", obj)]).load().description.meshes.remove(0)
 }
 
-/// Loads the material `m` with these statements; also says which warnings there were.
+/// Loads the material `m` with these statements; returns it with the warnings.
 fn material(statements: &str) -> (Material, Vec<String>) {
     let obj = format!("mtllib a.mtl\nusemtl m\n{TRIANGLE}");
     let mut loaded = load_obj(&obj, &format!("newmtl m\n{statements}\n"));
@@ -102,7 +102,7 @@ fn the_original_format_loads() {
 }
 
 #[test]
-fn our_own_keys_load() {
+fn the_keys_beyond_the_original_format_load() {
     let spot =
         "!spot_light { position: [0, 2, 0], direction: [0, -3, 0], inner: 20, outer: 30, color: [1, 2, 3] }";
     let text = format!("meshes: []\n{CAMERA}lights: [{spot}]\ndefaults: {{ width: 512, max_bounces: 0 }}\n");
@@ -117,7 +117,7 @@ fn our_own_keys_load() {
 }
 
 #[test]
-fn line_ends_and_a_byte_order_mark_change_nothing() {
+fn line_endings_and_a_byte_order_mark_have_no_effect() {
     let obj = format!("mtllib a.mtl\nusemtl m\n{TRIANGLE}");
     let mtl = "newmtl m\nKd 0.1 0.2 0.3\nmap_Kd a.png\n";
     let files = Files::new(&[("scene.yml", ORIGINAL), ("a.obj", &obj), ("a.mtl", mtl)]);
@@ -132,7 +132,7 @@ fn line_ends_and_a_byte_order_mark_change_nothing() {
 }
 
 #[test]
-fn white_space_comments_and_continued_lines_are_understood() {
+fn white_space_comments_and_continued_lines_are_read() {
     let obj = "  v\t0 0\t0 # origin\n\tv 1 0 0#\nv 0 1 \\\n0\nv 1 1 0\n#\n\nusemtl\tm # 1\nf 1 2 \\\r\n3\nmtllib\ta.mtl\nf 2 4 3 # end";
     let loaded = load_obj(obj, "\tnewmtl\tm # 1\n  Kd\t.5 # half\n");
     let mesh = &loaded.description.meshes[0];
@@ -153,7 +153,7 @@ fn steps_of_a_transform_apply_in_the_order_given() {
 }
 
 #[test]
-fn many_steps_are_rounded_only_once() {
+fn a_transform_of_many_steps_is_rounded_once() {
     let third = "!rotate { axis: [1, 2, 3], degrees: 1 }, ".repeat(360);
     let turned = corners(&transformed(&third, "v 0.1 0 0\nv 1 0.3 0\nv 0 1 0.7\nf 1 2 3\n"), 0);
     assert_eq!(turned[1], Vec3::new(1.0, 0.3, turned[1].z));
@@ -161,7 +161,7 @@ fn many_steps_are_rounded_only_once() {
 }
 
 #[test]
-fn a_mirrored_mesh_shows_its_outside() {
+fn a_reflected_mesh_keeps_its_orientation() {
     // A tetrahedron whose faces run counter-clockwise seen from outside.
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn -1 -1 -1\nf 1//1 3//1 2//1\nf 1//1 2//1 4//1\n\
                f 1//1 4//1 3//1\nf 2//1 3//1 4//1\n";
@@ -177,7 +177,7 @@ fn a_mirrored_mesh_shows_its_outside() {
 }
 
 #[test]
-fn relative_indices_count_back_from_their_line() {
+fn negative_indices_count_backwards_from_their_line() {
     let obj = "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 5 5\nf -1 -4 2\n";
     let mesh = transformed("", obj);
     assert_eq!(corners(&mesh, 0), [Vec3::ZERO, Vec3::X, Vec3::Y]);
@@ -191,7 +191,7 @@ fn vertices_may_follow_the_faces_that_use_them() {
 }
 
 #[test]
-fn polygons_become_fans_that_keep_their_attributes_and_materials() {
+fn polygons_are_triangulated_with_their_attributes_and_materials() {
     let obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0\nvt 0 0\nvt 1 0.5\nvn 0 0 2\n\
                g one\nusemtl a\nf 1/1/1 2/1/1 3/2/1 4/1/1 5/1/1\no two\nf 1 2 3\nusemtl b\nf 3//1 4//1 5//1\nl 1 2 3\np 1\n";
     let loaded = load_obj(obj, "newmtl b\nKd 0.1\nnewmtl a\nKd 0.2\nnewmtl unused\nmap_Kd missing.png\n");
@@ -219,7 +219,7 @@ fn polygons_become_fans_that_keep_their_attributes_and_materials() {
 }
 
 #[test]
-fn normals_of_length_zero_lead_to_flat_triangles_and_one_warning() {
+fn normals_of_length_zero_give_flat_shading_and_one_warning() {
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1e-30\nvn 0 0 0\nf 1//1 2//1 3//1\nf 1//1 2//2 3//2\n";
     let loaded = load_obj(obj, "");
     let mesh = &loaded.description.meshes[0];
@@ -232,7 +232,7 @@ fn normals_of_length_zero_lead_to_flat_triangles_and_one_warning() {
 }
 
 #[test]
-fn every_illumination_model_becomes_what_the_reference_says() {
+fn illumination_models_are_read_as_documented() {
     let values = "Kd 0.1\nKs 0.2 0.3 0.4\nNs 7\nNi 1.3\nTf 0.9\nKe 1 2 3\n";
     let ks = Rgb::new(0.2, 0.3, 0.4);
     let glass = Specular::Glass { index: 1.3, reflectance: ks, transmittance: Rgb::gray(0.9) };
@@ -252,7 +252,7 @@ fn every_illumination_model_becomes_what_the_reference_says() {
 }
 
 #[test]
-fn what_a_material_does_not_say_has_a_default() {
+fn missing_statements_of_a_material_have_defaults() {
     let (plain, warnings) = material("Kd 0.1\nKs 0 0 0");
     assert_eq!((plain.specular, warnings.len()), (Specular::None, 0));
     let (glass, warnings) = material("illum 7");
@@ -265,7 +265,7 @@ fn what_a_material_does_not_say_has_a_default() {
 }
 
 #[test]
-fn materials_that_reflect_too_much_are_corrected_with_a_warning() {
+fn materials_that_violate_energy_conservation_are_corrected_with_a_warning() {
     let (phong, warnings) = material("Kd 1.5 0.5 0.5\nKs 0.5\nNs 1");
     assert_eq!(phong.diffuse, Rgb::new(0.75, 0.25, 0.25));
     assert_eq!(phong.specular, Specular::Phong { reflectance: Rgb::gray(0.25), exponent: 1.0 });
@@ -274,11 +274,11 @@ fn materials_that_reflect_too_much_are_corrected_with_a_warning() {
     assert_eq!(mirror.specular, Specular::Mirror { reflectance: Rgb::new(1.0, 0.5, 1.0) });
     assert!(warnings.len() == 1 && warnings[0].contains("`Ks`"), "{warnings:?}");
     let (_, warnings) = material("Kd 0.700001\nKs 0.300001\nNs 1");
-    assert!(warnings.is_empty(), "rounded decimals are no reason to warn: {warnings:?}");
+    assert!(warnings.is_empty(), "rounded decimals give no warning: {warnings:?}");
 }
 
 #[test]
-fn harmless_statements_are_ignored_quietly_and_others_once_with_a_warning() {
+fn unsupported_statements_give_one_warning_and_harmless_ones_none() {
     let (_, warnings) =
         material("Ka 1 1 1\nd 0.5\nTr 0.5\nKm 1\nPr 1\nmap_bump a.png\nmap_bump b.png\nshiny yes");
     assert_eq!(warnings.len(), 2, "{warnings:?}");
@@ -286,7 +286,7 @@ fn harmless_statements_are_ignored_quietly_and_others_once_with_a_warning() {
 }
 
 #[test]
-fn textures_of_every_kind_become_rgb_and_each_file_is_read_once() {
+fn textures_of_all_formats_become_rgb_and_each_file_is_read_once() {
     let obj = format!("mtllib maps\\a.mtl\nusemtl a\n{TRIANGLE}usemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\n");
     let mtl = "newmtl a\nmap_Kd deep\\my wood.png\nnewmtl b\nKd 0.5\nmap_Kd ../maps/deep/my wood.png\nnewmtl c\nmap_Kd grey.png\n";
     let scene = format!("meshes: [models/a.obj, ./models/a.obj]\n{CAMERA}");
@@ -310,7 +310,7 @@ fn textures_of_every_kind_become_rgb_and_each_file_is_read_once() {
 }
 
 #[test]
-fn rows_of_a_texture_run_from_the_top() {
+fn texture_rows_are_stored_from_the_top() {
     let obj = format!("mtllib a.mtl\nusemtl m\n{TRIANGLE}");
     let scene = format!("meshes: [a.obj]\n{CAMERA}");
     for name in ["a.png", "a.bmp", "a.tga"] {
@@ -323,7 +323,7 @@ fn rows_of_a_texture_run_from_the_top() {
 }
 
 #[test]
-fn several_libraries_in_one_line_are_read() {
+fn several_libraries_on_one_line_are_read() {
     let obj = format!("mtllib a.mtl b.mtl\nusemtl b\n{TRIANGLE}");
     let scene = format!("meshes: [a.obj]\n{CAMERA}");
     let files = [
@@ -336,7 +336,7 @@ fn several_libraries_in_one_line_are_read() {
 }
 
 #[test]
-fn a_path_without_a_folder_is_relative_to_the_current_one() {
+fn a_bare_file_name_is_relative_to_the_current_folder() {
     let error = load(Path::new("no_such_scene.yml")).expect_err("it does not exist");
     assert_eq!(error.file, Path::new("no_such_scene.yml"));
 }

@@ -37,7 +37,7 @@ fn pool(threads: usize) -> ThreadPool {
     ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started")
 }
 
-fn picture(pool: &ThreadPool, scene: &Scene, technique: Technique, samples: u64) -> Film {
+fn image(pool: &ThreadPool, scene: &Scene, technique: Technique, samples: u64) -> Film {
     let mut film = Film::new(WIDTH, HEIGHT);
     let tracer = PathTracer::new(Settings { technique, max_bounces: MAX_BOUNCES });
     pool.install(|| render(&tracer, scene, &mut film, 0..samples, 1, &AtomicBool::new(false)));
@@ -52,7 +52,7 @@ fn samples(criterion: &mut Criterion) {
         group.sample_size(20).sampling_mode(SamplingMode::Flat);
         group.throughput(Throughput::Elements(u64::from(WIDTH * HEIGHT)));
         for technique in Technique::ALL {
-            group.bench_function(technique.name(), |b| b.iter(|| picture(&one, &scene, technique, 1)));
+            group.bench_function(technique.name(), |b| b.iter(|| image(&one, &scene, technique, 1)));
         }
         group.finish();
     }
@@ -65,7 +65,7 @@ fn scaling(_: &mut Criterion) {
     let (one, two) = (pool(1), pool(2));
     let seconds = |pool: &ThreadPool| {
         let start = Instant::now();
-        picture(pool, &scene, Technique::Mis, 16);
+        image(pool, &scene, Technique::Mis, 16);
         start.elapsed().as_secs_f64()
     };
     let mut ratios: Vec<f64> = (0..ROUNDS).map(|_| seconds(&one) / seconds(&two)).collect();

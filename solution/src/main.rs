@@ -1,4 +1,4 @@
-//! The renderer as a program.
+//! The renderer program.
 
 pub mod algorithms;
 

@@ -9,7 +9,7 @@ mod common;
 use std::f64::consts::PI;
 
 use arty::light::Light;
-use arty::math::{Rgb, Vec3, direction};
+use arty::math::{Rgb, Vec3, direction_and_distance};
 use arty::ray::Ray;
 use arty::sampler::Sampler;
 use arty::scene::{LightDescription, Scene, SceneDescription};
@@ -27,10 +27,10 @@ fn by_asking(scene: &Scene, normal: Vec3, samples: u64, seed: u64) -> Estimate {
         let mut sampler = Sampler::new(seed, (0, 0), sample);
         let of_light = |light: &Light| {
             let Some(sample) = light.sample_direct(Vec3::ZERO, &mut sampler) else { return 0.0 };
-            let (wi, distance) = direction(Vec3::ZERO, sample.point);
-            let geometry =
-                f64::from(normal.dot(wi).max(0.0)) * f64::from(sample.cos) / f64::from(distance).powi(2);
-            f64::from(sample.intensity.g) * geometry / f64::from(sample.pdf_area)
+            let (wi, distance) = direction_and_distance(Vec3::ZERO, sample.point);
+            let geometry = f64::from(normal.dot(wi).max(0.0)) * f64::from(sample.cos_light)
+                / f64::from(distance).powi(2);
+            f64::from(sample.emitted.g) * geometry / f64::from(sample.pdf_area)
         };
         scene.lights().iter().map(of_light).sum()
     }))
@@ -49,8 +49,8 @@ fn by_hitting(description: &SceneDescription, normal: Vec3, samples: u64, seed: 
         let mut sampler = Sampler::new(seed, (1, 0), sample);
         let Some(sample) = bsdf.sample(&mut sampler) else { return 0.0 };
         let Some(there) = scene.intersect(&hit.spawn(sample.wi)) else { return 0.0 };
-        let Some(light) = there.light() else { return 0.0 };
-        PI * f64::from(sample.f.g * sample.cos / sample.pdf * light.emission(&there).radiance.g)
+        let Some(emission) = there.emission() else { return 0.0 };
+        PI * f64::from(sample.f.g * sample.cos / sample.pdf * emission.radiance.g)
     }))
 }
 

@@ -94,7 +94,7 @@ fn scaled(scene: &SceneDescription, scale: f32) -> SceneDescription {
     scaled
 }
 
-/// Samples of a small picture.
+/// Samples of a small image.
 fn samples(description: &SceneDescription, technique: Technique) -> Vec<Rgb> {
     let scene = Scene::new(description);
     let tracer = PathTracer::new(Settings { technique, max_bounces: 6 });

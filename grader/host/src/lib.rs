@@ -10,6 +10,8 @@
 
 pub mod confine;
 #[cfg(feature = "serve")]
+mod constructor;
+#[cfg(feature = "serve")]
 mod probe;
 pub mod protocol;
 #[cfg(feature = "serve")]
@@ -22,4 +24,6 @@ mod serve;
 mod stdio;
 
 #[cfg(feature = "serve")]
-pub use serve::{Constructor, serve};
+pub use constructor::Constructor;
+#[cfg(feature = "serve")]
+pub use serve::serve;

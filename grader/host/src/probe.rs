@@ -7,8 +7,8 @@ use arty::ray::Ray;
 use arty::sampler::Sampler;
 use arty::scene::Scene;
 
+use crate::constructor::Constructor;
 use crate::protocol::{ProbeJob, ProbedPath, ScriptedScene};
-use crate::serve::Constructor;
 
 /// All paths of a job, scene by scene.
 pub(crate) fn all(key: &Key, constructor: Constructor, job: &ProbeJob) -> Vec<Vec<ProbedPath>> {
@@ -43,8 +43,8 @@ fn path(
 ) -> ProbedPath {
     take_counts(key);
     let radiance = integrator.radiance(scene, ray, &mut Sampler::new(seed, (0, 0), sample)).to_array();
-    let probe::Counts { rays, shadow_rays, light_samples, bsdf_samples } = take_counts(key);
-    ProbedPath { radiance, rays, shadow_rays, light_samples, bsdf_samples }
+    let probe::Counts { rays, shadow_rays, light_samples } = take_counts(key);
+    ProbedPath { radiance, rays, shadow_rays, light_samples }
 }
 
 fn build(scripted: &ScriptedScene) -> Scene {

@@ -43,7 +43,7 @@ pub struct ReplayJob {
     pub pixel: [u32; 2],
     /// The number of the sample.
     pub sample: u64,
-    /// Ways of finding light that are closed.
+    /// Which ways of finding light are enabled.
     pub switches: Switches,
 }
 
@@ -64,17 +64,21 @@ pub struct RenderJob {
     pub first_sample: u64,
     /// Samples of each pixel in each batch.
     pub samples: u64,
-    /// Ways of finding light that are closed.
+    /// Which ways of finding light are enabled.
     pub switches: Switches,
 }
 
-/// Which ways of finding light are closed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+/// Which ways of finding light are enabled. By default all of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Switches {
-    /// Lights that are hit emit nothing: their emission is black.
-    pub hits_off: bool,
-    /// Every point is occluded from every other.
-    pub shadows_off: bool,
+    /// False if the emission of lights that are hit is black.
+    pub emission_on_hit: bool,
+}
+
+impl Default for Switches {
+    fn default() -> Self {
+        Self { emission_on_hit: true }
+    }
 }
 
 /// Paths through scripted scenes.
@@ -168,8 +172,6 @@ pub struct ProbedPath {
     pub shadow_rays: u32,
     /// Calls of `Light::sample_direct`.
     pub light_samples: u32,
-    /// Calls of `Bsdf::sample`.
-    pub bsdf_samples: u32,
 }
 
 /// The path of a [`ReplayJob`].

@@ -8,8 +8,8 @@ use arty::scene::Scene;
 use cpu_time::ProcessTime;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
+use crate::constructor::Constructor;
 use crate::protocol::{AnomalousSample, RenderJob, Rendered};
-use crate::serve::Constructor;
 
 /// How many anomalies are named.
 const NAMED: usize = 16;

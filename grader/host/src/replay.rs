@@ -4,8 +4,8 @@ use arty::probe::{self, Key, start_recording, take_recording};
 use arty::render::sample_pixel;
 use arty::scene::Scene;
 
+use crate::constructor::Constructor;
 use crate::protocol::{Call, ReplayJob, Replayed};
-use crate::serve::Constructor;
 
 /// Computes one sample again.
 pub(crate) fn path(key: &Key, constructor: Constructor, scene: &Scene, job: &ReplayJob) -> Replayed {

@@ -6,16 +6,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 use std::sync::Mutex;
 
-use arty::integrator::{Integrator, Settings};
 use arty::probe::Key;
 use arty::scene::Scene;
 
 use crate::confine::{Layers, confine};
+use crate::constructor::Constructor;
 use crate::protocol::{MAX_MESSAGE, Request, Response, Switches, UNCONFINED, read_message, write_message};
 use crate::{probe, render, replay, stdio};
-
-/// Makes the hand-in's path tracer.
-pub type Constructor = fn(Settings) -> Box<dyn Integrator>;
 
 /// Answers requests until the grader closes the pipe.
 pub fn serve(constructor: Constructor) -> ExitCode {
@@ -86,8 +83,7 @@ fn answer_all(
 }
 
 fn switches(switches: Switches) -> arty::probe::Switches {
-    let Switches { hits_off, shadows_off } = switches;
-    arty::probe::Switches { hits_off, shadows_off }
+    arty::probe::Switches { emission_on_hit: switches.emission_on_hit }
 }
 
 /// Runs code of the hand-in.

@@ -26,7 +26,7 @@ fn responses() -> Vec<Vec<u8>> {
         first_anomalies: vec![AnomalousSample { seed: 1, x: 2, y: 3, sample: 4, value: [f32::INFINITY; 3] }],
         cpu_seconds: 0.5,
     };
-    let path = ProbedPath { radiance: [0.0; 3], rays: 1, shadow_rays: 2, light_samples: 3, bsdf_samples: 4 };
+    let path = ProbedPath { radiance: [0.0; 3], rays: 1, shadow_rays: 2, light_samples: 3 };
     let value = || ("wi".to_owned(), vec![0.0, 1.0, f32::NAN]);
     let call = Call { function: "Bsdf::eval".to_owned(), given: vec![value()], got: vec![value(), value()] };
     let replayed = Replayed { radiance: [f32::NAN; 3], calls: vec![call; 3], left_out: 0 };

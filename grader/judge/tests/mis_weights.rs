@@ -70,9 +70,9 @@ fn swapped_and_constant_weights_are_named() {
 fn densities_per_area_are_named() {
     let sampled = (
         SAMPLED,
-        "Technique::Mis if light.has_area() => balance(pick_probability(scene) * sample.pdf_area, bsdf.pdf(wi))",
+        "Technique::Mis if light.has_area() => balance(p_light(scene) * sample.pdf_area, bsdf.pdf(wi))",
     );
-    let hit = (HIT, "balance(p_brdf, pick_probability(scene) * emission.pdf_area)");
+    let hit = (HIT, "balance(p_brdf, p_light(scene) * emission.pdf_area)");
     fails(
         &[sampled, hit],
         &["in both weights", "per area, not per solid angle: exponent -2 on the distance"],
@@ -93,7 +93,7 @@ fn a_forgotten_pick_probability_is_named() {
 fn a_shadow_ray_that_is_an_ordinary_ray_passes() {
     let change = (
         "scene.occluded(hit, sample.point)",
-        "scene.intersect(&hit.spawn(wi)).is_some_and(|other| direction(hit.point, other.point).1 < 0.999 * distance)",
+        "scene.intersect(&hit.spawn(wi)).is_some_and(|other| direction_and_distance(hit.point, other.point).1 < 0.999 * distance)",
     );
     passes(&[change], "balance heuristic");
 }

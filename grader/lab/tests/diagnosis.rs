@@ -124,8 +124,8 @@ fn the_cause_is_named_in_programs_of_another_style() {
     for (style, from, to, cause) in [
         (
             "recursive",
-            "let geometry = hit.cos(wi) * sample.cos / (d * d);",
-            "let geometry = sample.cos / (d * d);",
+            "let geometry = hit.cos(wi) * sample.cos_light / (d * d);",
+            "let geometry = sample.cos_light / (d * d);",
             "receiver-cosine-missing",
         ),
         (

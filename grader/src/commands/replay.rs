@@ -92,7 +92,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         seed: arguments.seed,
         pixel: arguments.pixel,
         sample: arguments.sample,
-        switches: Switches { hits_off: arguments.hits_off, shadows_off: false },
+        switches: Switches { emission_on_hit: !arguments.hits_off },
     };
     let submission = intake::read(&arguments.submission)?;
     let program = compile(&Framework::build(&workspace)?, &submission.source, &Limits::default())?

@@ -35,8 +35,8 @@ impl Error {
     }
 }
 
-impl From<arty::scene::Diagnostic> for Error {
-    fn from(diagnostic: arty::scene::Diagnostic) -> Self {
+impl From<arty::diagnostic::Diagnostic> for Error {
+    fn from(diagnostic: arty::diagnostic::Diagnostic) -> Self {
         Self::Input(diagnostic.to_string())
     }
 }

@@ -40,12 +40,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let rays = Rays::of(&geometry, &own);
         for (kind, starts) in [("primary", &rays.primary), ("bounce", &rays.bounces)] {
             let own = |ray: &Start| {
-                own.intersect(ray.origin, ray.direction, f32::INFINITY, ray.leaves).map(|hit| hit.primitive)
+                own.intersect(ray.origin, ray.direction, f32::INFINITY, ray.exclude).map(|hit| hit.primitive)
             };
             let other = |scene: &EmbreeScene<'_>, ray: &Start| scene.intersect(ray.origin, ray.direction);
             compare(&format!("{} {kind}", geometry.name), starts, own, &scenes, other);
         }
-        let between = |segment: &Segment| own.occluded(segment.origin, segment.target, Some(segment.leaves));
+        let between = |segment: &Segment| own.occluded(segment.origin, segment.target, Some(segment.exclude));
         let other =
             |scene: &EmbreeScene<'_>, segment: &Segment| scene.occluded(segment.origin, segment.target);
         compare(&format!("{} shadow", geometry.name), &rays.shadow, between, &scenes, other);

@@ -35,7 +35,7 @@ pub(super) struct Start {
     pub(super) origin: Vec3,
     pub(super) direction: Vec3,
     /// The triangle that it starts from.
-    pub(super) leaves: Option<u32>,
+    pub(super) exclude: Option<u32>,
 }
 
 /// A shadow ray.
@@ -43,7 +43,7 @@ pub(super) struct Segment {
     pub(super) origin: Vec3,
     pub(super) target: Vec3,
     /// The triangle that it starts from.
-    pub(super) leaves: u32,
+    pub(super) exclude: u32,
 }
 
 /// The Cornell box, the knot of 70,000 triangles, and a bumpy sphere of a million in a room.
@@ -120,14 +120,14 @@ impl Rays {
             if rays.primary.len() >= RAYS && rays.bounces.len() >= RAYS && rays.shadow.len() >= RAYS {
                 break;
             }
-            // Neighbouring pixels follow each other in a picture; here each is drawn apart, the harder case.
+            // Neighbouring pixels follow each other in an image; here each is drawn apart, the harder case.
             let mut sampler = Sampler::new(1, (0, 0), path);
             let (u, v) = sampler.next_2d();
             let pixel = ((u * SIZE.0 as f32) as u32, (v * SIZE.1 as f32) as u32);
             let ray = camera.ray(pixel.0, pixel.1, sampler.next_2d());
-            let mut ray = Start { origin: ray.origin, direction: ray.direction, leaves: None };
+            let mut ray = Start { origin: ray.origin, direction: ray.direction, exclude: None };
             for bounce in 0..MAX_BOUNCES {
-                let Some(hit) = accel.intersect(ray.origin, ray.direction, f32::INFINITY, ray.leaves) else {
+                let Some(hit) = accel.intersect(ray.origin, ray.direction, f32::INFINITY, ray.exclude) else {
                     break;
                 };
                 let next = rays.scatter(geometry, &ray, hit.primitive, hit.barycentrics, &mut sampler);
@@ -159,10 +159,10 @@ impl Rays {
             self.shadow.push(Segment {
                 origin: offset_origin(point, normal, target - point),
                 target,
-                leaves: primitive,
+                exclude: primitive,
             });
         }
         let direction = Frame::around(normal).to_world(warp::cosine_hemisphere(sampler.next_2d()));
-        Start { origin: offset_origin(point, normal, direction), direction, leaves: Some(primitive) }
+        Start { origin: offset_origin(point, normal, direction), direction, exclude: Some(primitive) }
     }
 }

@@ -7,7 +7,7 @@ use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 
-use crate::firsts::firsts;
+use crate::dedup::dedup;
 
 /// Up to this depth a tree is worth improving. Trees over meshes have about half of it.
 const DEPTH_WORTH_IMPROVING: usize = 64;
@@ -21,10 +21,10 @@ pub(super) struct BinaryTree {
 /// A node with two children or, if it has one triangle only, a leaf.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BinaryNode {
-    /// The least coordinates of all triangles below.
-    pub(super) least: Vec3,
-    /// The greatest ones.
-    pub(super) greatest: Vec3,
+    /// Minimum coordinates of all triangles below.
+    pub(super) min: Vec3,
+    /// Maximum coordinates.
+    pub(super) max: Vec3,
     /// How many triangles there are below.
     pub(super) triangles: u32,
     /// The first of two children, one after the other; in a leaf the index of the triangle.
@@ -40,7 +40,7 @@ impl BinaryNode {
 
     /// Half the area of the box's surface: how likely a ray meets it.
     pub(super) fn half_area(&self) -> f32 {
-        let size = self.greatest - self.least;
+        let size = self.max - self.min;
         size.x * size.y + size.y * size.z + size.z * size.x
     }
 }
@@ -71,7 +71,7 @@ impl BinaryTree {
     ///
     /// Triangles with the same box are one to obvhs, which else makes a level for each of them.
     pub(super) fn cluster(triangles: &[[Vec3; 3]]) -> Self {
-        let same_box = firsts(triangles.len(), |triangle| {
+        let same_box = dedup(triangles.len(), |triangle| {
             bounds(&triangles[triangle]).map(|corner| corner.to_array().map(f32::to_bits))
         });
         let mut boxes = Vec::with_capacity(triangles.len());
@@ -128,7 +128,7 @@ impl BinaryTree {
         obvhs: &Bvh2,
         starts: &[usize],
     ) -> Self {
-        let blank = BinaryNode { least: Vec3::ZERO, greatest: Vec3::ZERO, triangles: 0, first: 0 };
+        let blank = BinaryNode { min: Vec3::ZERO, max: Vec3::ZERO, triangles: 0, first: 0 };
         let mut nodes = Vec::with_capacity(2 * triangles.len());
         let mut open = Vec::new();
         if !triangles.is_empty() {
@@ -149,8 +149,8 @@ impl BinaryTree {
                 }
                 Source::Range(start, end) if end - start == 1 => {
                     let triangle = order[start];
-                    let [least, greatest] = bounds(&triangles[triangle as usize]);
-                    nodes[index] = BinaryNode { least, greatest, triangles: 1, first: triangle };
+                    let [min, max] = bounds(&triangles[triangle as usize]);
+                    nodes[index] = BinaryNode { min, max, triangles: 1, first: triangle };
                     continue;
                 }
                 Source::Range(start, end) => {
@@ -169,8 +169,8 @@ impl BinaryTree {
                 let first = nodes[index].first as usize;
                 let [left, right]: [BinaryNode; 2] = [nodes[first], nodes[first + 1]];
                 let node = &mut nodes[index];
-                node.least = left.least.min(right.least);
-                node.greatest = left.greatest.max(right.greatest);
+                node.min = left.min.min(right.min);
+                node.max = left.max.max(right.max);
                 node.triangles = left.triangles + right.triangles;
             }
         }
@@ -182,16 +182,15 @@ impl BinaryTree {
 /// them come before all others.
 fn separate(triangles: &[[Vec3; 3]], order: &mut [u32], middle: usize) {
     let position = |triangle: u32, axis: usize| {
-        let [least, greatest] = bounds(&triangles[triangle as usize]);
-        least[axis] + greatest[axis]
+        let [min, max] = bounds(&triangles[triangle as usize]);
+        min[axis] + max[axis]
     };
     let spread = |axis: usize| {
-        let (least, greatest) =
-            order.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(least, greatest), triangle| {
-                let position = position(*triangle, axis);
-                (least.min(position), greatest.max(position))
-            });
-        greatest - least
+        let (min, max) = order.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(min, max), triangle| {
+            let position = position(*triangle, axis);
+            (min.min(position), max.max(position))
+        });
+        max - min
     };
     let spreads = [0, 1, 2].map(spread);
     let axis = (0..3).max_by(|a, b| spreads[*a].total_cmp(&spreads[*b])).unwrap_or(0);

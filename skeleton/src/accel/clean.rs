@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::exact;
-use crate::firsts::{LEAST, firsts};
+use crate::dedup::{MIN_PER_THREAD, dedup};
 
 /// What is left of a list of triangles.
 pub(super) struct Cleaned {
@@ -31,14 +31,15 @@ pub(super) fn clean(all: &[[Vec3; 3]]) -> Cleaned {
         let finite = corners.iter().all(|corner| corner.is_finite());
         (finite && exact::normal(&prepared(corners)) != DVec3::ZERO).then_some(primitive as u32)
     };
-    let kept: Vec<u32> = all.par_iter().with_min_len(LEAST).enumerate().filter_map(can_be_hit).collect();
+    let kept: Vec<u32> =
+        all.par_iter().with_min_len(MIN_PER_THREAD).enumerate().filter_map(can_be_hit).collect();
     cleaned.degenerate = all.len() - kept.len();
-    let firsts = firsts(kept.len(), |index| {
+    let first_equal = dedup(kept.len(), |index| {
         let mut key = prepared(&all[kept[index] as usize]).map(|corner| corner.to_array().map(f32::to_bits));
         key.sort_unstable();
         key
     });
-    for (index, (&primitive, &first)) in kept.iter().zip(&firsts).enumerate() {
+    for (index, (&primitive, &first)) in kept.iter().zip(&first_equal).enumerate() {
         if first as usize == index {
             cleaned.triangles.push(prepared(&all[primitive as usize]));
             cleaned.primitives.push(primitive);

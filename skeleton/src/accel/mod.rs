@@ -1,7 +1,7 @@
 //! Which triangle does a ray hit first, and does anything lie between two points?
 //!
-//! Triangles are sorted into packets of eight and packets into a tree of boxes (`tree`), which rays descend
-//! (`traverse`) until they meet packets (`packet`). Rays do not leak: not through edges, not through
+//! Triangles are sorted into blocks of eight and blocks into a tree of boxes (`tree`), which rays descend
+//! (`traverse`) until they meet blocks (`triangle_block`). Rays do not leak: not through edges, not through
 //! vertices, nor because they start or end next to a surface (`exact`).
 
 mod binary;
@@ -9,12 +9,12 @@ mod clean;
 mod exact;
 mod lanes;
 mod offset;
-mod packet;
 mod ray;
 #[cfg(test)]
 mod tests;
 mod traverse;
 mod tree;
+mod triangle_block;
 
 use glam::Vec3;
 
@@ -22,9 +22,9 @@ pub use offset::{offset_origin, point_on};
 
 use binary::BinaryTree;
 use lanes::{Lanes, Portable};
-use packet::{NO_PRIMITIVE, Nearest};
 use ray::PreparedRay;
 use tree::Tree;
+use triangle_block::{NO_PRIMITIVE, Nearest};
 
 /// Triangles in an order in which those that a ray hits are found fast.
 #[derive(Clone, Debug)]
@@ -48,12 +48,12 @@ pub struct AccelStats {
     pub degenerate: usize,
     /// Triangles left out because an earlier one has the same three corners, in whatever order.
     pub duplicates: usize,
-    /// Nodes of the tree; 0 if all packets are tested one by one.
+    /// Nodes of the tree; 0 if all blocks are tested one by one.
     pub nodes: usize,
-    /// Nodes on the longest way from the root to a packet.
+    /// Nodes on the longest way from the root to a block.
     pub depth: usize,
-    /// Packets of up to eight triangles.
-    pub packets: usize,
+    /// Blocks of up to eight triangles.
+    pub blocks: usize,
 }
 
 /// Where a ray meets a triangle.
@@ -76,7 +76,7 @@ impl Accel {
         let mut cleaned = clean::clean(triangles);
         let corners = cleaned.triangles.as_flattened_mut();
         let scale =
-            scale_for(corners.iter().fold(0.0, |most: f32, corner| most.max(corner.abs().max_element())));
+            scale_for(corners.iter().fold(0.0, |max: f32, corner| max.max(corner.abs().max_element())));
         corners.iter_mut().for_each(|corner| *corner *= scale);
         let mut tree =
             Tree::collapse(&BinaryTree::cluster(&cleaned.triangles), &cleaned.triangles, &cleaned.primitives);
@@ -93,7 +93,7 @@ impl Accel {
             duplicates: cleaned.duplicates.len(),
             nodes: tree.nodes.len(),
             depth: tree.depth,
-            packets: tree.packets.len(),
+            blocks: tree.blocks.len(),
         };
         Self {
             scale,
@@ -118,7 +118,7 @@ impl Accel {
     /// The nearest hit between 0 and `t_max`, both excluded; distances are in lengths of `direction`.
     ///
     /// `direction` may have any length that is far from the ends of what f32 can represent. A ray that is not
-    /// finite or has no direction hits nothing. Neither does a ray hit the triangle `leaves`, the one that it starts
+    /// finite or has no direction hits nothing. Neither does a ray hit the triangle `exclude`, the one that it starts
     /// from: its origin has been moved off that, so this saves the time to find out.
     #[inline]
     pub fn intersect(
@@ -126,15 +126,15 @@ impl Accel {
         origin: Vec3,
         direction: Vec3,
         t_max: f32,
-        leaves: Option<u32>,
+        exclude: Option<u32>,
     ) -> Option<TriangleHit> {
-        let (ray, leaves) = (Pairs::of(origin, direction), leaves.unwrap_or(NO_PRIMITIVE));
+        let (ray, exclude) = (Pairs::of(origin, direction), exclude.unwrap_or(NO_PRIMITIVE));
         #[cfg(target_arch = "x86_64")]
         if self.avx2 {
             // SAFETY: `build` has checked that the machine has AVX2.
-            return unsafe { self.intersect_avx2(ray.x, ray.y, ray.z, t_max, leaves) };
+            return unsafe { self.intersect_avx2(ray.x, ray.y, ray.z, t_max, exclude) };
         }
-        self.intersect_portable(ray.x, ray.y, ray.z, t_max, leaves)
+        self.intersect_portable(ray.x, ray.y, ray.z, t_max, exclude)
     }
 
     /// True if anything lies strictly between `origin` and `target`.
@@ -142,44 +142,44 @@ impl Accel {
     /// A triangle is between them if they are strictly on opposite sides of its plane and the line from one to
     /// the other passes through it. `target` may be rounded: a triangle that it lies on but for the rounding of
     /// coordinates to f32, such as that of a light, is not between. For `origin` there is no such allowance; a
-    /// point on a surface must be moved off it first ([`offset_origin`]). The triangle `leaves` counts as not between.
+    /// point on a surface must be moved off it first ([`offset_origin`]). The triangle `exclude` counts as not between.
     #[inline]
-    pub fn occluded(&self, origin: Vec3, target: Vec3, leaves: Option<u32>) -> bool {
-        let (ends, leaves) = (Pairs::of(origin, target), leaves.unwrap_or(NO_PRIMITIVE));
+    pub fn occluded(&self, origin: Vec3, target: Vec3, exclude: Option<u32>) -> bool {
+        let (ends, exclude) = (Pairs::of(origin, target), exclude.unwrap_or(NO_PRIMITIVE));
         #[cfg(target_arch = "x86_64")]
         if self.avx2 {
             // SAFETY: `build` has checked that the machine has AVX2.
-            return unsafe { self.occluded_avx2(ends.x, ends.y, ends.z, leaves) };
+            return unsafe { self.occluded_avx2(ends.x, ends.y, ends.z, exclude) };
         }
-        self.occluded_portable(ends.x, ends.y, ends.z, leaves)
+        self.occluded_portable(ends.x, ends.y, ends.z, exclude)
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
-    fn intersect_avx2(&self, x: Pair, y: Pair, z: Pair, t_max: f32, leaves: u32) -> Option<TriangleHit> {
-        self.intersect_with::<lanes::Avx>(Pairs { x, y, z }, t_max, leaves)
+    fn intersect_avx2(&self, x: Pair, y: Pair, z: Pair, t_max: f32, exclude: u32) -> Option<TriangleHit> {
+        self.intersect_with::<lanes::Avx>(Pairs { x, y, z }, t_max, exclude)
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
-    fn occluded_avx2(&self, x: Pair, y: Pair, z: Pair, leaves: u32) -> bool {
-        self.occluded_with::<lanes::Avx>(Pairs { x, y, z }, leaves)
+    fn occluded_avx2(&self, x: Pair, y: Pair, z: Pair, exclude: u32) -> bool {
+        self.occluded_with::<lanes::Avx>(Pairs { x, y, z }, exclude)
     }
 
     #[inline(never)]
-    fn intersect_portable(&self, x: Pair, y: Pair, z: Pair, t_max: f32, leaves: u32) -> Option<TriangleHit> {
-        self.intersect_with::<Portable>(Pairs { x, y, z }, t_max, leaves)
+    fn intersect_portable(&self, x: Pair, y: Pair, z: Pair, t_max: f32, exclude: u32) -> Option<TriangleHit> {
+        self.intersect_with::<Portable>(Pairs { x, y, z }, t_max, exclude)
     }
 
     #[inline(never)]
-    fn occluded_portable(&self, x: Pair, y: Pair, z: Pair, leaves: u32) -> bool {
-        self.occluded_with::<Portable>(Pairs { x, y, z }, leaves)
+    fn occluded_portable(&self, x: Pair, y: Pair, z: Pair, exclude: u32) -> bool {
+        self.occluded_with::<Portable>(Pairs { x, y, z }, exclude)
     }
 
     #[inline(always)]
-    fn intersect_with<V: Lanes>(&self, ray: Pairs, t_max: f32, leaves: u32) -> Option<TriangleHit> {
+    fn intersect_with<V: Lanes>(&self, ray: Pairs, t_max: f32, exclude: u32) -> Option<TriangleHit> {
         let [origin, direction] = ray.vectors();
-        let ray = PreparedRay::new(origin * self.scale, direction * self.scale, leaves)?;
+        let ray = PreparedRay::new(origin * self.scale, direction * self.scale, exclude)?;
         // An infinite end would meet the empty boxes of unused lanes where rounding takes a ray's origin to infinity.
         let end = if t_max > f32::MAX { f32::MAX } else { t_max };
         let mut nearest = Nearest { t: end, primitive: 0, weights: [0.0; 2], weight_sum: 0.0 };
@@ -194,11 +194,11 @@ impl Accel {
     }
 
     #[inline(always)]
-    fn occluded_with<V: Lanes>(&self, ends: Pairs, leaves: u32) -> bool {
+    fn occluded_with<V: Lanes>(&self, ends: Pairs, exclude: u32) -> bool {
         let [origin, target] = ends.vectors();
         let (origin, target) = (origin * self.scale, target * self.scale);
         // One rounding: f64 would give the same.
-        let Some(ray) = PreparedRay::new(origin, target - origin, leaves) else { return false };
+        let Some(ray) = PreparedRay::new(origin, target - origin, exclude) else { return false };
         let reach = origin.abs().max_element() + target.abs().max_element();
         self.tree.occluded::<V>(&ray, target, reach)
     }
@@ -230,15 +230,15 @@ impl Pairs {
     }
 }
 
-/// The power of two that brings coordinates up to `greatest` into a range in which products of three of them,
+/// The power of two that brings coordinates up to `max` into a range in which products of three of them,
 /// and of differences a millionth as great, are far from the ends of f32. Almost always 1.
-fn scale_for(greatest: f32) -> f32 {
-    const LEAST: f32 = 1.0 / (1 << 15) as f32;
-    const MOST: f32 = (1u64 << 35) as f32;
-    if greatest == 0.0 || (LEAST..MOST).contains(&greatest) {
+fn scale_for(max: f32) -> f32 {
+    const MIN: f32 = 1.0 / (1 << 15) as f32;
+    const MAX: f32 = (1u64 << 35) as f32;
+    if max == 0.0 || (MIN..MAX).contains(&max) {
         return 1.0;
     }
-    // The exponent of `greatest` with its sign turned; f32 has no more than 127 to either side.
-    let exponent = greatest.log2().floor().clamp(-126.0, 126.0);
+    // The exponent of `max` with its sign turned; f32 has no more than 127 to either side.
+    let exponent = max.log2().floor().clamp(-126.0, 126.0);
     (-exponent).exp2()
 }

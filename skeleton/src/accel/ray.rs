@@ -17,13 +17,13 @@ pub(super) struct PreparedRay {
     /// How much x and y change with z along the ray.
     pub(super) shear: [f32; 2],
     /// The triangle that it does not hit.
-    pub(super) leaves: u32,
+    pub(super) exclude: u32,
 }
 
 impl PreparedRay {
     /// Makes a ray ready, or gives `None` if it has no direction or is not finite.
     #[inline(always)]
-    pub(super) fn new(origin: Vec3, direction: Vec3, leaves: u32) -> Option<Self> {
+    pub(super) fn new(origin: Vec3, direction: Vec3, exclude: u32) -> Option<Self> {
         let length = direction.abs().max_element();
         if length == 0.0 || !direction.is_finite() || !origin.is_finite() {
             return None;
@@ -38,7 +38,7 @@ impl PreparedRay {
         let axes = [(z + 1) % 3, (z + 2) % 3, z];
         let direction = direction.to_array();
         let shear = [direction[axes[0]] / direction[z], direction[axes[1]] / direction[z]];
-        Some(Self { origin: origin.to_array(), direction, axes, shear, leaves })
+        Some(Self { origin: origin.to_array(), direction, axes, shear, exclude })
     }
 }
 
@@ -58,7 +58,7 @@ pub(super) struct Slabs {
 }
 
 impl Slabs {
-    /// Makes a ray ready; `bounds` are the least and the greatest corner of a box around the geometry.
+    /// Makes a ray ready; `bounds` are the minimum and maximum corner of the bounding box.
     ///
     /// The slab test of Ize ("Robust BVH Ray Traversal", JCGT 2013) makes a box only as much larger as its own
     /// rounding asks for. The triangle test rounds too: seen from the ray, it moves vertices by a few roundings

@@ -5,9 +5,9 @@ use std::mem::MaybeUninit;
 use glam::Vec3;
 
 use super::lanes::{Lanes, Row, take_lowest};
-use super::packet::Nearest;
 use super::ray::{PreparedRay, Slabs};
 use super::tree::{Node, Tree};
+use super::triangle_block::Nearest;
 
 /// Room for nodes that wait for their turn. A tree made by halving needs no more than seven for each of its
 /// levels, of which there are at most 32.
@@ -130,8 +130,8 @@ impl Tree {
     #[inline(always)]
     pub(super) fn intersect<V: Lanes>(&self, ray: &PreparedRay, nearest: &mut Nearest) {
         if self.nodes.is_empty() {
-            for (packet, planes) in self.packets.iter().zip(&self.planes) {
-                packet.intersect::<V>(planes, ray, nearest);
+            for (block, planes) in self.blocks.iter().zip(&self.planes) {
+                block.intersect::<V>(planes, ray, nearest);
             }
             return;
         }
@@ -142,15 +142,15 @@ impl Tree {
         loop {
             let node = &self.nodes[next];
             let (met, distances) = node.meet::<V>(&slabs, nearest.t);
-            let (mut packets, mut nodes) = (met & node.packets, met & !node.packets);
+            let (mut blocks, mut nodes) = (met & node.blocks, met & !node.blocks);
             let distances = distances.store();
-            // Packets at once, in any order: which of a node's children come next is hard to foretell, and each time
-            // that the processor thinks of a packet where there is a node costs more than a packet too many.
-            while packets != 0 {
-                let lane = take_lowest(&mut packets);
+            // Blocks at once, in any order: which of a node's children come next is hard to foretell, and each time
+            // that the processor thinks of a block where there is a node costs more than a block too many.
+            while blocks != 0 {
+                let lane = take_lowest(&mut blocks);
                 if distances.0[lane] <= nearest.t {
-                    let packet = node.children[lane] as usize;
-                    self.packets[packet].intersect::<V>(&self.planes[packet], ray, nearest);
+                    let block = node.children[lane] as usize;
+                    self.blocks[block].intersect::<V>(&self.planes[block], ray, nearest);
                 }
             }
             if nodes != 0 {
@@ -182,10 +182,10 @@ impl Tree {
     pub(super) fn occluded<V: Lanes>(&self, ray: &PreparedRay, target: Vec3, reach: f32) -> bool {
         if self.nodes.is_empty() {
             return self
-                .packets
+                .blocks
                 .iter()
                 .zip(&self.planes)
-                .any(|(packet, planes)| packet.occludes::<V>(planes, ray, target, reach));
+                .any(|(block, planes)| block.occludes::<V>(planes, ray, target, reach));
         }
         let slabs = Slabs::new(ray, self.bounds);
         let mut room = ROOM;
@@ -194,10 +194,10 @@ impl Tree {
         loop {
             let node = &self.nodes[next];
             let (met, distances) = node.meet::<V>(&slabs, 1.0);
-            let (mut packets, mut nodes) = (met & node.packets, met & !node.packets);
-            while packets != 0 {
-                let packet = node.children[take_lowest(&mut packets)] as usize;
-                if self.packets[packet].occludes::<V>(&self.planes[packet], ray, target, reach) {
+            let (mut blocks, mut nodes) = (met & node.blocks, met & !node.blocks);
+            while blocks != 0 {
+                let block = node.children[take_lowest(&mut blocks)] as usize;
+                if self.blocks[block].occludes::<V>(&self.planes[block], ray, target, reach) {
                     return true;
                 }
             }

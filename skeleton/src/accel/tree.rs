@@ -1,8 +1,8 @@
-//! A tree of boxes: each node has up to eight children, each a node or a packet of triangles.
+//! A tree of boxes: each node has up to eight children, each a node or a block of triangles.
 //!
 //! [`obvhs`] makes a good binary tree. Here its upper levels are merged into nodes of eight, which fit the eight
-//! lanes that the traversal works with, and its lower ones into packets. Among all ways to do so, the one with
-//! the least expected cost is found by dynamic programming (Ylitie, Karras, Laine, "Efficient Incoherent Ray
+//! lanes that the traversal works with, and its lower ones into blocks. Among all ways to do so, the one with
+//! the min expected cost is found by dynamic programming (Ylitie, Karras, Laine, "Efficient Incoherent Ray
 //! Traversal on GPUs Through Compressed Wide BVHs", HPG 2017, section 4).
 
 use glam::Vec3;
@@ -10,25 +10,25 @@ use glam::Vec3;
 use super::binary::{BinaryNode, BinaryTree};
 use super::exact::Plane;
 use super::lanes::Row;
-use super::packet::{Packet, Planes};
+use super::triangle_block::{Planes, TriangleBlock};
 
-/// Expected cost of visiting a node, where visiting a packet costs 1.
+/// Expected cost of visiting a node, where visiting a block costs 1.
 const NODE_COST: f32 = 1.0;
 
-/// Up to this many packets are tested one by one, without a tree: making a ray ready for boxes and sorting children
-/// cost more than the packets that a tree would leave out (measured with the 32 triangles of a Cornell box).
+/// Up to this many blocks are tested one by one, without a tree: making a ray ready for boxes and sorting children
+/// cost more than the blocks that a tree would leave out (measured with the 32 triangles of a Cornell box).
 const SCANNED_PACKETS: usize = 5;
 
 /// The children's boxes, and where the children are.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub(super) struct Node {
-    /// The planes that bound the boxes: least x, y, z, then greatest x, y, z. Unused lanes have empty boxes.
+    /// The planes that bound the boxes: minimum x, y, z, then maximum x, y, z. Unused lanes have empty boxes.
     pub(super) planes: [Row; 6],
-    /// Where the children are among the tree's packets or, if they are nodes, among its nodes.
+    /// Where the children are among the tree's blocks or, if they are nodes, among its nodes.
     pub(super) children: [u32; 8],
-    /// A bit for each child that is a packet.
-    pub(super) packets: u32,
+    /// A bit for each child that is a block.
+    pub(super) blocks: u32,
 }
 
 const _: () = assert!(size_of::<Node>() == 256, "a node is four cache lines");
@@ -36,26 +36,26 @@ const _: () = assert!(size_of::<Node>() == 256, "a node is four cache lines");
 impl Node {
     const EMPTY: Self = Self {
         planes: {
-            let (least, greatest) = (Row([f32::INFINITY; 8]), Row([f32::NEG_INFINITY; 8]));
-            [least, least, least, greatest, greatest, greatest]
+            let (min, max) = (Row([f32::INFINITY; 8]), Row([f32::NEG_INFINITY; 8]));
+            [min, min, min, max, max, max]
         },
         children: [0; 8],
-        packets: 0,
+        blocks: 0,
     };
 }
 
-/// Nodes and packets.
+/// Nodes and blocks.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tree {
-    /// The root is node 0. Empty if all packets are tested one by one.
+    /// The root is node 0. Empty if all blocks are tested one by one.
     pub(super) nodes: Vec<Node>,
-    /// Least and greatest coordinates.
+    /// Minimum and maximum coordinates.
     pub(super) bounds: [Vec3; 2],
     /// The leaves.
-    pub(super) packets: Vec<Packet>,
-    /// The planes of each packet.
+    pub(super) blocks: Vec<TriangleBlock>,
+    /// The planes of each block.
     pub(super) planes: Vec<Planes>,
-    /// Nodes on the longest way from the root to a packet.
+    /// Nodes on the longest way from the root to a block.
     pub(super) depth: usize,
     /// The most nodes that can be waiting for their turn at one time in a depth-first traversal.
     pub(super) waiting: usize,
@@ -64,14 +64,14 @@ pub(super) struct Tree {
 /// What the dynamic programme finds for a node of the binary tree.
 #[derive(Clone, Copy, Default)]
 struct Plan {
-    /// `cost[i]`: the least cost of showing the subtree as at most i + 1 children of one node.
+    /// `cost[i]`: the min cost of showing the subtree as at most i + 1 children of one node.
     cost: [f32; 7],
     /// `left[i]`: how many of them come from the left child; 0 if one fewer than allowed (or one) is as good.
     left: [u8; 7],
     /// The same for the subtree as a node with eight children of its own.
     left_of_eight: u8,
-    /// Whether the subtree as one child is a packet.
-    packet: bool,
+    /// Whether the subtree as one child is a block.
+    block: bool,
 }
 
 impl Tree {
@@ -86,7 +86,7 @@ impl Tree {
         }
         let mut builder = Builder { binary, plans: &plans, triangles, primitives, tree: &mut tree };
         if triangles.len() <= 8 * SCANNED_PACKETS {
-            builder.add_packets();
+            builder.add_blocks();
         } else {
             builder.add_nodes();
         }
@@ -99,12 +99,12 @@ fn plan(binary: &BinaryTree) -> Vec<Plan> {
     let mut plans = vec![Plan::default(); binary.nodes.len()];
     for (index, node) in binary.nodes.iter().enumerate().rev() {
         let area = node.half_area();
-        let packet_cost = if node.triangles <= 8 { area } else { f32::INFINITY };
+        let block_cost = if node.triangles <= 8 { area } else { f32::INFINITY };
         let Some([left, right]) = node.children() else {
-            plans[index] = Plan { cost: [packet_cost; 7], packet: true, ..Plan::default() };
+            plans[index] = Plan { cost: [block_cost; 7], block: true, ..Plan::default() };
             continue;
         };
-        // The least cost of showing both children as `count` children in all, and the share of the left one.
+        // The min cost of showing both children as `count` children in all, and the share of the left one.
         let split = |count: usize| {
             (1..count)
                 .filter(|from_left| *from_left <= 7 && count - from_left <= 7)
@@ -120,8 +120,8 @@ fn plan(binary: &BinaryTree) -> Vec<Plan> {
         let (node_cost, left_of_eight) = split(8);
         let node_cost = node_cost + area * NODE_COST;
         plan.left_of_eight = left_of_eight;
-        plan.packet = packet_cost <= node_cost;
-        plan.cost[0] = packet_cost.min(node_cost);
+        plan.block = block_cost <= node_cost;
+        plan.cost[0] = block_cost.min(node_cost);
         for count in 2..=7 {
             let (cost, from_left) = split(count);
             let fewer = plan.cost[count - 2];
@@ -150,26 +150,26 @@ impl Builder<'_> {
         let mut open = vec![(0, 0, 1, 0)];
         while let Some((index, binary_index, depth, waiting)) = open.pop() {
             let children = self.children(binary_index);
-            let waiting = waiting + children.iter().filter(|child| !self.plans[**child].packet).count();
+            let waiting = waiting + children.iter().filter(|child| !self.plans[**child].block).count();
             self.tree.depth = self.tree.depth.max(depth);
             self.tree.waiting = self.tree.waiting.max(waiting);
             for (lane, child) in children.into_iter().enumerate() {
-                let is_packet = self.plans[child].packet;
-                let place = if is_packet {
-                    self.add_packet(&self.leaves(child))
+                let is_block = self.plans[child].block;
+                let place = if is_block {
+                    self.add_block(&self.leaves(child))
                 } else {
                     self.tree.nodes.push(Node::EMPTY);
                     let added = self.tree.nodes.len() - 1;
                     open.push((added, child, depth + 1, waiting - 1));
                     added as u32
                 };
-                let BinaryNode { least, greatest, .. } = self.binary.nodes[child];
+                let BinaryNode { min, max, .. } = self.binary.nodes[child];
                 let node = &mut self.tree.nodes[index];
                 node.children[lane] = place;
-                node.packets |= u32::from(is_packet) << lane;
+                node.blocks |= u32::from(is_block) << lane;
                 for axis in 0..3 {
-                    node.planes[axis].0[lane] = least[axis];
-                    node.planes[3 + axis].0[lane] = greatest[axis];
+                    node.planes[axis].0[lane] = min[axis];
+                    node.planes[3 + axis].0[lane] = max[axis];
                 }
             }
         }
@@ -201,24 +201,24 @@ impl Builder<'_> {
         children
     }
 
-    /// Adds packets of all triangles below the root, all but the last of them full.
-    fn add_packets(&mut self) {
+    /// Adds blocks of all triangles below the root, all but the last of them full.
+    fn add_blocks(&mut self) {
         let leaves = self.leaves(0);
         for eight in leaves.chunks(8) {
-            self.add_packet(eight);
+            self.add_block(eight);
         }
     }
 
-    /// Adds a packet and returns its index.
-    fn add_packet(&mut self, triangles: &[usize]) -> u32 {
-        let (mut packet, mut planes) = (Packet::EMPTY, [Plane::NONE; 8]);
+    /// Adds a block and returns its index.
+    fn add_block(&mut self, triangles: &[usize]) -> u32 {
+        let (mut block, mut planes) = (TriangleBlock::EMPTY, [Plane::NONE; 8]);
         for (lane, triangle) in triangles.iter().enumerate() {
-            packet.set(lane, &self.triangles[*triangle], self.primitives[*triangle]);
+            block.set(lane, &self.triangles[*triangle], self.primitives[*triangle]);
             planes[lane] = Plane::new(&self.triangles[*triangle]);
         }
         self.tree.planes.push(planes);
-        self.tree.packets.push(packet);
-        self.tree.packets.len() as u32 - 1
+        self.tree.blocks.push(block);
+        self.tree.blocks.len() as u32 - 1
     }
 
     /// The triangles below a binary node, neighbours next to each other.

@@ -1,4 +1,4 @@
-//! The algorithms that the program offers.
+//! The algorithms of the program.
 
 pub mod render_debug;
 pub mod render_pt;

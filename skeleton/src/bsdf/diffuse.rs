@@ -1,4 +1,4 @@
-//! Lambert's law: the same radiance in every direction.
+//! The Lambertian model: constant reflected radiance in all directions.
 
 use std::f32::consts::FRAC_1_PI;
 

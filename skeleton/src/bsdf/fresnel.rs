@@ -1,9 +1,9 @@
-//! How much of the light a smooth surface between two transparent media reflects.
+//! Fresnel reflectance of a smooth interface between two dielectrics.
 
 /// Fresnel reflectance of unpolarised light, in [0, 1].
 ///
-/// `cos` is the cosine of incidence, `cos_t` that of refraction, both ≥ 0; `ratio` is the index of refraction on
-/// the side the light comes from divided by the one on the other side.
+/// `cos` is the cosine of incidence, `cos_t` that of refraction, both ≥ 0; `ratio` is the index of refraction on the side of
+/// incidence divided by the one on the other side.
 ///
 /// r∥ = (cos − η cos_t) / (cos + η cos_t), r⊥ = (η cos − cos_t) / (η cos + cos_t), F = (r∥² + r⊥²) / 2, with η the
 /// ratio (Born and Wolf, "Principles of Optics", 1.5.2).
@@ -12,7 +12,7 @@ pub fn fresnel_dielectric(cos: f32, cos_t: f32, ratio: f32) -> f32 {
     let sum_parallel = cos + ratio * cos_t;
     let sum_perpendicular = ratio * cos + cos_t;
     if sum_parallel <= 0.0 || sum_perpendicular <= 0.0 {
-        return 1.0; // along the surface
+        return 1.0; // grazing incidence
     }
     let parallel = (cos - ratio * cos_t) / sum_parallel;
     let perpendicular = (ratio * cos - cos_t) / sum_perpendicular;

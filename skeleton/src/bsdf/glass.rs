@@ -1,11 +1,10 @@
-//! Smooth glass: reflection and refraction by Fresnel's and Snell's laws.
+//! Smooth glass: reflection and refraction by the laws of Fresnel and Snell.
 //!
-//! # Radiance crossing the surface
-//! A bundle of light is squeezed or widened as it is refracted, and its radiance grows or falls with the squared
-//! index of refraction: L/n² is what is kept (Veach's thesis, 1997, section 5.2). The direction `wo` looks from a
-//! medium of index n_o, the refracted one `wi` into one of index n_i, so what is seen is L_i · (n_o / n_i)². That
-//! factor is part of `f` here. Light that enters and leaves again has lost nothing; a camera inside glass sees
-//! n² L.
+//! # Radiance across the interface
+//! Refraction changes the solid angle of a beam, and its radiance scales with the squared index of refraction: L/n² is
+//! invariant (Veach's thesis, 1997, section 5.2). With `wo` in a medium of index n_o and the refracted `wi` in one of index
+//! n_i, the transmitted radiance is L_i · (n_o / n_i)². This factor is part of `f`. Light that enters and leaves loses
+//! nothing; a camera inside glass sees n² L.
 
 use super::mirror::delta_sample;
 use super::{BsdfSample, LocalGeometry, fresnel_dielectric};
@@ -14,14 +13,14 @@ use crate::sampler::Sampler;
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Glass {
-    /// The index of refraction on the viewer's side divided by the one behind the surface.
+    /// Index of refraction on the viewer's side divided by the one on the other side.
     pub(crate) ratio: f32,
     pub(crate) reflectance: Rgb,
     pub(crate) transmittance: Rgb,
 }
 
 impl Glass {
-    /// One of the two directions, chosen with the probability that Fresnel's law gives it.
+    /// Samples reflection or refraction, with the Fresnel reflectance as the probability of reflection.
     #[inline]
     pub(super) fn sample(&self, geometry: &LocalGeometry, sampler: &mut Sampler) -> Option<BsdfSample> {
         let LocalGeometry { normal, geometric_normal, wo } = *geometry;

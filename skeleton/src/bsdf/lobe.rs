@@ -1,10 +1,11 @@
-//! One term of a BSDF.
+//! The lobes of a BSDF.
 
+use super::scripted::ScriptedLobe;
 use super::{BsdfSample, Glass, LocalGeometry, Phong, diffuse, mirror};
 use crate::math::{Rgb, Vec3};
 use crate::sampler::Sampler;
 
-/// One of the models that a BSDF is put together from. `eval` and `pdf` expect a `wi` above both horizons.
+/// One term of a BSDF. `eval` and `pdf` expect `wi` above both horizons.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Lobe {
     Diffuse {
@@ -15,18 +16,18 @@ pub(crate) enum Lobe {
         reflectance: Rgb,
     },
     Glass(Glass),
-    #[cfg(feature = "probe")]
-    Scripted(crate::probe::ScriptedLobe),
+    /// In the build of the grader's host only.
+    Scripted(ScriptedLobe),
 }
 
 impl Lobe {
     #[inline]
     pub(super) fn is_delta(&self) -> bool {
-        #[cfg(feature = "probe")]
-        if let Self::Scripted(script) = self {
-            return script.is_delta;
+        match self {
+            Self::Diffuse { .. } | Self::Phong(_) => false,
+            Self::Mirror { .. } | Self::Glass(_) => true,
+            Self::Scripted(script) => script.is_delta(),
         }
-        matches!(self, Self::Mirror { .. } | Self::Glass(_))
     }
 
     #[inline]
@@ -35,7 +36,6 @@ impl Lobe {
             Self::Diffuse { albedo } => diffuse::eval(*albedo),
             Self::Phong(phong) => phong.eval(geometry, wi),
             Self::Mirror { .. } | Self::Glass(_) => Rgb::BLACK,
-            #[cfg(feature = "probe")]
             Self::Scripted(script) => script.eval(),
         }
     }
@@ -46,32 +46,29 @@ impl Lobe {
             Self::Diffuse { .. } => diffuse::pdf(geometry, wi),
             Self::Phong(phong) => phong.pdf(geometry, wi),
             Self::Mirror { .. } | Self::Glass(_) => 0.0,
-            #[cfg(feature = "probe")]
             Self::Scripted(script) => script.pdf(),
         }
     }
 
-    /// A direction of a lobe that is not a delta distribution; `None` for one that is.
+    /// Samples a direction; `None` for a delta lobe.
     #[inline]
     pub(super) fn sample_direction(&self, geometry: &LocalGeometry, sampler: &mut Sampler) -> Option<Vec3> {
         match self {
             Self::Diffuse { .. } => Some(diffuse::sample(geometry, sampler)),
             Self::Phong(phong) => Some(phong.sample(geometry, sampler)),
             Self::Mirror { .. } | Self::Glass(_) => None,
-            #[cfg(feature = "probe")]
-            Self::Scripted(script) => (!script.is_delta).then_some(script.wi),
+            Self::Scripted(script) => (!script.is_delta()).then_some(script.wi),
         }
     }
 
-    /// The direction of a delta lobe; `None` for any other.
+    /// Samples the direction of a delta lobe; `None` for any other lobe.
     #[inline]
     pub(super) fn sample_delta(&self, geometry: &LocalGeometry, sampler: &mut Sampler) -> Option<BsdfSample> {
         match self {
             Self::Diffuse { .. } | Self::Phong(_) => None,
             Self::Mirror { reflectance } => mirror::sample(geometry, *reflectance),
             Self::Glass(glass) => glass.sample(geometry, sampler),
-            #[cfg(feature = "probe")]
-            Self::Scripted(script) => script.sample_delta(geometry.normal),
+            Self::Scripted(script) => script.sample_delta(geometry),
         }
     }
 }

@@ -1,10 +1,10 @@
 //! How surfaces scatter light.
 //!
-//! A [`Bsdf`] belongs to one hit point and one direction `wo` towards the viewer; everything else is asked about a
-//! direction `wi` towards the light. Both are unit vectors in world space that point away from the surface. All
-//! densities are per solid angle.
+//! A [`Bsdf`] belongs to one hit point and one direction `wo` towards the viewer; its functions take or return the
+//! direction `wi` towards the light. Both are unit vectors in world space that point away from the surface. All densities
+//! are per solid angle.
 //!
-//! Surfaces look the same from both sides, but for glass, whose front is outside.
+//! Surfaces are two-sided, except for glass, whose front is outside.
 
 mod diffuse;
 mod fresnel;
@@ -12,46 +12,50 @@ mod glass;
 mod lobe;
 mod mirror;
 mod phong;
+mod recorded;
+mod scripted;
 
 use crate::math::{Rgb, Vec3};
+use crate::probe;
 use crate::sampler::Sampler;
 
 pub use fresnel::fresnel_dielectric;
 pub(crate) use glass::Glass;
 pub(crate) use lobe::Lobe;
 pub(crate) use phong::Phong;
+pub(crate) use scripted::ScriptedLobe;
 
 /// The bidirectional scattering distribution function at a hit point, for a fixed direction `wo` to the viewer.
 ///
-/// It is a weighted choice of one or two lobes: diffuse, modified Phong, mirror, glass. Mirror and glass are delta
-/// distributions: they scatter into single directions, which no direction chosen by other means ever meets.
+/// It is the sum of one or two lobes: diffuse, modified Phong, mirror, glass. Mirror and glass are delta distributions: they
+/// scatter into single directions, which no other sampling technique ever finds.
 #[derive(Clone, Copy, Debug)]
 pub struct Bsdf {
     geometry: LocalGeometry,
     first: Lobe,
     second: Option<Lobe>,
-    /// The probability with which `sample` picks the first lobe.
+    /// Selection probability of the first lobe in `sample`.
     first_probability: f32,
 }
 
-/// A direction drawn by [`Bsdf::sample`].
+/// A direction sampled by [`Bsdf::sample`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BsdfSample {
-    /// The direction drawn: a unit vector in world space, away from the surface.
+    /// The sampled direction: a unit vector in world space, pointing away from the surface.
     pub wi: Vec3,
-    /// The value of the BSDF for it, in 1/sr, without the cosine; for a delta lobe the factor on the radiance
-    /// divided by `cos`, so that `f · cos / pdf` is right in either case.
+    /// The value of the BSDF for `wi`, 1/sr, without the cosine. For a delta lobe the fraction of radiance that is scattered,
+    /// divided by `cos`, so that `f · cos / pdf` is correct in either case.
     pub f: Rgb,
-    /// The density per solid angle with which `wi` was drawn, over all lobes; for a delta lobe the probability of
-    /// choosing it and its direction. Finite and greater than 0.
+    /// Density per solid angle with which `wi` was sampled, over all lobes. For a delta lobe the probability of selecting it
+    /// and its direction. Finite and greater than 0.
     pub pdf: f32,
-    /// The absolute cosine between `wi` and the shading normal.
+    /// Absolute cosine between `wi` and the shading normal.
     pub cos: f32,
-    /// True if `wi` comes from a delta lobe. Then no other technique could have found this direction.
+    /// True if `wi` comes from a delta lobe: no other sampling technique could have found it.
     pub is_delta: bool,
 }
 
-/// The directions that a lobe refers to.
+/// The directions at a hit point that lobes depend on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LocalGeometry {
     /// Shading normal, on the viewer's side.
@@ -63,8 +67,8 @@ pub(crate) struct LocalGeometry {
 }
 
 impl LocalGeometry {
-    /// True if light from `wi` arrives on the viewer's side of the surface, as reflection needs it. With
-    /// interpolated normals there are two horizons; light must be above both.
+    /// True if `wi` is on the viewer's side of the surface, so that its light can be reflected. With interpolated normals
+    /// there are two horizons, and `wi` must be above both.
     #[inline]
     pub(crate) fn reflects(&self, wi: Vec3) -> bool {
         self.normal.dot(wi) > 0.0 && self.geometric_normal.dot(wi) > 0.0
@@ -78,7 +82,7 @@ impl Bsdf {
         Self { geometry, first: lobe, second: None, first_probability: 1.0 }
     }
 
-    /// The sum of two lobes; `first_probability` in (0, 1) is how often `sample` picks the first.
+    /// The sum of two lobes; `first_probability` in (0, 1) is the selection probability of the first in `sample`.
     #[inline]
     pub(crate) fn mixture(
         geometry: LocalGeometry,
@@ -89,10 +93,10 @@ impl Bsdf {
         Self { geometry, first, second: Some(second), first_probability }
     }
 
-    /// The reflectance, if the only lobe is a diffuse one.
+    /// The albedo if there is only a diffuse lobe.
     ///
-    /// Most surfaces are like that. Their share of the functions below is small enough to be inlined; that of other
-    /// lobes is not.
+    /// Most surfaces are like that, and their part of the functions below is small enough to be inlined; that of other lobes
+    /// is not.
     #[inline]
     fn only_diffuse(&self) -> Option<Rgb> {
         match (self.first, self.second) {
@@ -101,14 +105,13 @@ impl Bsdf {
         }
     }
 
-    /// The value f(wo, wi) in 1/sr, without the cosine.
+    /// The value f(wo, wi), 1/sr, without the cosine.
     ///
-    /// Black from the horizon down, and black for the delta lobes, in whatever direction.
+    /// Black at and below the horizon. Delta lobes contribute nothing, whatever the direction.
     #[inline]
     pub fn eval(&self, wi: Vec3) -> Rgb {
         let f = self.value(wi);
-        #[cfg(feature = "probe")]
-        crate::probe::record(|| eval_call(wi, f));
+        probe::record(|| recorded::eval(wi, f));
         f
     }
 
@@ -129,17 +132,16 @@ impl Bsdf {
         f
     }
 
-    /// The density per solid angle with which [`sample`](Self::sample) would draw `wi`.
+    /// Density per solid angle with which [`sample`](Self::sample) samples `wi`.
     ///
-    /// Zero from the horizon down. Of a mixture with a delta lobe only the other lobe counts, with its share. The
-    /// integral over all directions is at most 1; what is missing are delta lobes and samples that came out below
-    /// the horizon, for which `sample` gives `None`. A black material keeps the density of white, though nothing is
-    /// drawn from it.
+    /// Zero at and below the horizon. In a mixture with a delta lobe only the other lobe counts, with its selection
+    /// probability. The integral over all directions is at most 1; the rest is the probability of delta lobes and of samples
+    /// below the horizon, for which `sample` returns `None`. A black material has the density of a white one, although
+    /// `sample` always returns `None`.
     #[inline]
     pub fn pdf(&self, wi: Vec3) -> f32 {
         let pdf = self.density(wi);
-        #[cfg(feature = "probe")]
-        crate::probe::record(|| pdf_call(wi, pdf));
+        probe::record(|| recorded::pdf(wi, pdf));
         pdf
     }
 
@@ -160,20 +162,17 @@ impl Bsdf {
         pdf
     }
 
-    /// Draws a direction, roughly in proportion to f · cos.
+    /// Samples a direction with a density roughly proportional to f · cos.
     ///
-    /// `None` if nothing is scattered: the material is black, or the direction drawn lies below the horizon. The
-    /// path ends there, with no correction to be made.
+    /// `None` if nothing is scattered: the material is black, or the sampled direction is below the horizon. The path ends
+    /// there, and no compensation is needed.
     #[inline]
     pub fn sample(&self, sampler: &mut Sampler) -> Option<BsdfSample> {
-        #[cfg(feature = "probe")]
-        crate::probe::count(|counts| counts.bsdf_samples += 1);
         let sample = match self.only_diffuse() {
             Some(_) => self.sample_towards(diffuse::sample(&self.geometry, sampler)),
             None => self.sample_lobes(sampler),
         };
-        #[cfg(feature = "probe")]
-        crate::probe::record(|| sample_call(sample));
+        probe::record(|| recorded::sample(sample));
         sample
     }
 
@@ -192,11 +191,11 @@ impl Bsdf {
         self.sample_towards(lobe.sample_direction(&self.geometry, sampler)?)
     }
 
-    /// The sample for a direction that a lobe that is not a delta distribution has drawn.
+    /// The sample for a direction from a lobe that is not a delta distribution.
     #[inline]
     fn sample_towards(&self, wi: Vec3) -> Option<BsdfSample> {
         let (f, pdf) = (self.value(wi), self.density(wi));
-        // A density of zero or infinity: below the horizon, or beyond what f32 can hold.
+        // Below the horizon the density is zero; extreme lobes may overflow.
         if !(pdf > 0.0 && pdf.is_finite() && f.is_finite()) || f.is_black() {
             return None;
         }
@@ -207,26 +206,5 @@ impl Bsdf {
     #[inline]
     pub fn is_delta(&self) -> bool {
         self.first.is_delta() && self.second.is_none_or(|second| second.is_delta())
-    }
-}
-
-#[cfg(feature = "probe")]
-fn eval_call(wi: Vec3, f: Rgb) -> crate::probe::Call {
-    crate::probe::Call::new("Bsdf::eval").given("wi", wi).got("f", f)
-}
-
-#[cfg(feature = "probe")]
-fn pdf_call(wi: Vec3, pdf: f32) -> crate::probe::Call {
-    crate::probe::Call::new("Bsdf::pdf").given("wi", wi).got("pdf", pdf)
-}
-
-#[cfg(feature = "probe")]
-fn sample_call(sample: Option<BsdfSample>) -> crate::probe::Call {
-    let call = crate::probe::Call::new("Bsdf::sample");
-    match sample {
-        None => call,
-        Some(BsdfSample { wi, f, pdf, cos, is_delta }) => {
-            call.got("wi", wi).got("f", f).got("pdf", pdf).got("cos", cos).got("is_delta", is_delta)
-        }
     }
 }

@@ -1,9 +1,9 @@
 //! The modified Phong model.
 //!
 //! Lafortune and Willems, "Using the Modified Phong Reflectance Model for Physically Based Rendering", report
-//! CW 197, K.U. Leuven, 1994: f = ks (n + 2) / 2π · cosⁿ α, where α is the angle between `wi` and the mirrored
-//! `wo`. The factor makes the reflectance ks for light along the normal; for all other directions part of the
-//! lobe lies below the horizon, and less is reflected. The model is reciprocal.
+//! CW 197, K.U. Leuven, 1994: f = ks (n + 2) / 2π · cosⁿ α, where α is the angle between `wi` and the
+//! reflection of `wo`. The normalization makes the reflectance ks at normal incidence; for other directions part of the lobe
+//! is below the horizon, and less is reflected. The model is reciprocal.
 
 use std::f32::consts::FRAC_1_PI;
 
@@ -28,7 +28,7 @@ impl Phong {
         warp::cosine_power_pdf(self.power_of_cosine(geometry, wi), self.exponent)
     }
 
-    /// A direction around the mirrored `wo`, which may lie below the horizon.
+    /// Samples a direction around the reflection of `wo`; it may be below the horizon.
     #[inline]
     pub(super) fn sample(&self, geometry: &LocalGeometry, sampler: &mut Sampler) -> Vec3 {
         let mirrored = reflect(geometry.wo, geometry.normal);

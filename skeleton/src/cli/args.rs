@@ -1,4 +1,4 @@
-//! The command line as it is written.
+//! The command-line arguments.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -14,8 +14,8 @@ use crate::integrator::Technique;
 
 /// Renders a scene.
 ///
-/// All randomness comes from the seed: the same command line gives the same picture, to the last bit, with any
-/// number of threads.
+/// All randomness comes from the seed: the same command line renders the same image, bit by bit, with any number of
+/// threads.
 #[derive(Debug, Parser)]
 #[command(name = "arty", version, max_term_width = 100, after_help = SHORT_EXAMPLES, after_long_help = EXAMPLES)]
 pub(super) struct Args {
@@ -23,15 +23,15 @@ pub(super) struct Args {
     #[arg(value_name = "SCENE.yml")]
     pub(super) scene: PathBuf,
 
-    /// What to render with
+    /// The algorithm
     #[arg(short, long, value_enum, default_value_t = Algo::Pt, help_heading = ALGORITHM)]
     pub(super) algo: Algo,
 
-    /// How the path tracer looks for light
+    /// The estimator of the path tracer
     #[arg(long, value_enum, default_value_t = Technique::Mis, help_heading = ALGORITHM)]
     pub(super) technique: Technique,
 
-    /// How often a path is scattered at most: 0 shows lights only, 1 direct light [default: the scene's, else 8]
+    /// Maximum number of bounces: 0 = emission only, 1 = direct light [default: the scene's, else 8]
     #[arg(long, value_name = "N", help_heading = ALGORITHM)]
     pub(super) max_bounces: Option<u32>,
 
@@ -39,127 +39,129 @@ pub(super) struct Args {
     #[arg(long, value_enum, value_name = "WHAT", help_heading = ALGORITHM)]
     pub(super) show: Option<DebugView>,
 
-    /// Seed of all random numbers
+    /// Seed of the random numbers
     #[arg(long, value_name = "N", default_value_t = 0, help_heading = ALGORITHM)]
     pub(super) seed: u64,
 
-    /// Width in pixels (also -sx) [default: in proportion to the height, or the scene's, or 512]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=MAX_SIDE), help_heading = PICTURE)]
+    /// Width in pixels (also -sx) [default: proportional to --height, else the scene's, else 512]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=MAX_SIDE), help_heading = IMAGE)]
     pub(super) width: Option<u32>,
 
-    /// Height in pixels (also -sy) [default: in proportion to the width, or the scene's, or 412]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=MAX_SIDE), help_heading = PICTURE)]
+    /// Height in pixels (also -sy) [default: proportional to --width, else the scene's, else 412]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=MAX_SIDE), help_heading = IMAGE)]
     pub(super) height: Option<u32>,
 
-    /// Samples per pixel [default: 64, or no limit with --time]
+    /// Samples per pixel [default: 64, unlimited with --time]
     ///
-    /// With --time, whichever limit comes first counts.
-    #[arg(short, long, value_name = "N", value_parser = value_parser!(u64).range(1..), help_heading = PICTURE)]
+    /// If --time is given too, rendering stops at whichever limit is reached first.
+    #[arg(short, long, value_name = "N", value_parser = value_parser!(u64).range(1..), help_heading = IMAGE)]
     pub(super) samples: Option<u64>,
 
-    /// Seconds to render for; each pixel gets at least one sample
-    #[arg(short, long, value_name = "SECONDS", value_parser = seconds, help_heading = PICTURE)]
+    /// Time limit in seconds; every pixel gets at least one sample
+    #[arg(short, long, value_name = "SECONDS", value_parser = seconds, help_heading = IMAGE)]
     pub(super) time: Option<Duration>,
 
-    /// Where to save the picture: a .png to look at, an .exr to compute with; may be given several times
-    /// [default: `<scene>.png`, here]
+    /// Output file, .png (for viewing) or .exr (linear data); can be repeated [default: `<scene>.png` in the current
+    /// folder]
     ///
-    /// An earlier file of that name is replaced. An OpenEXR file holds the mean and (from two samples per pixel
-    /// on) the variance of the mean of each pixel, and how the picture was made.
+    /// Existing files are replaced. An OpenEXR file contains the mean of each pixel, the variance of that mean (with two
+    /// or more samples per pixel), and metadata on how the image was rendered.
     #[arg(short, long, value_name = "FILE", value_parser = PathBufValueParser::new().try_map(Output::new),
           help_heading = OUTPUT)]
     pub(super) output: Vec<Output>,
 
-    /// Brightens the PNG by this many stops (may be negative)
+    /// Exposure of the PNG in stops; may be negative
     #[arg(long, value_name = "EV", default_value_t = 0.0, value_parser = exposure, allow_negative_numbers = true,
           help_heading = OUTPUT)]
     pub(super) exposure: f32,
 
-    /// Shows the picture in the viewer tev while it is rendered
+    /// Show the image in the tev viewer during rendering
     #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, require_equals = true,
           default_missing_value = tev::DEFAULT_ADDRESS, help_heading = OUTPUT)]
     pub(super) tev: Option<String>,
 
-    /// Prints and saves the error against this OpenEXR picture while rendering (relative MSE, MSE)
+    /// Print and save the error against this OpenEXR reference during rendering (relative MSE, MSE)
     ///
-    /// The picture gets the size of the reference, which --width and --height must not contradict, and its bounces.
-    /// A layer `variance` in the reference (the program saves one) is subtracted: it is the reference's own noise.
-    /// There are pictures to compare with in references/pictures. They have 256 samples per pixel and say nothing of
-    /// their noise: errors close to it flatten. Render a reference of your own for long curves.
+    /// The image is rendered with the reference's size, which --width and --height must not contradict, and maximum
+    /// number of bounces. If the reference has a layer `variance` (as files written by this program do), it is
+    /// subtracted: it estimates the noise of the reference itself. references/pictures contains references with 256
+    /// samples per pixel and no such layer, so error curves flatten near their noise level. Render your own reference
+    /// for long curves.
     #[arg(long, value_name = "REF.exr", help_heading = OUTPUT)]
     pub(super) reference: Option<PathBuf>,
 
-    /// Where to save the errors that --reference gives, as CSV [default: `<scene>.errors.csv`, here]
+    /// Output file for the errors against --reference, as CSV [default: `<scene>.errors.csv` in the current folder]
     #[arg(long, value_name = "FILE.csv", requires = "reference", help_heading = OUTPUT)]
     pub(super) errors: Option<PathBuf>,
 
-    /// Number of threads [default: one for each processor]
+    /// Number of threads [default: one per processor]
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024), help_heading = OTHER)]
     pub(super) threads: Option<u16>,
 
-    /// Prints what there is in the scene, and renders nothing
+    /// Print statistics of the scene instead of rendering it
     #[arg(long, help_heading = OTHER)]
     pub(super) features: bool,
 
-    /// Says nothing but warnings and errors
+    /// Print only warnings and errors
     #[arg(short, long, help_heading = OTHER)]
     pub(super) quiet: bool,
 }
 
-/// What to render with.
+/// The algorithm to render with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Algo {
-    /// Properties of the surfaces that the camera sees
+    /// Properties of the visible surfaces
     Debug,
     /// Path tracing
     Pt,
 }
 
 const ALGORITHM: &str = "Algorithm";
-const PICTURE: &str = "Picture";
+const IMAGE: &str = "Image";
 const OUTPUT: &str = "Output";
 const OTHER: &str = "Other";
 
-/// The most columns or rows, as in scene files.
+/// Maximum width and height, as in scene files.
 const MAX_SIDE: i64 = 65536;
 
-const SHORT_EXAMPLES: &str = "Example: arty --algo=pt scenes/cornell_box.yml --samples=16\nMore with --help.";
+const SHORT_EXAMPLES: &str =
+    "Example: arty --algo=pt scenes/cornell_box.yml --samples=16\nSee --help for details and more examples.";
 
 const EXAMPLES: &str = "\
 Examples:
   arty --algo=pt scenes/cornell_box_water.yml --width=512 --height=412
-      The picture of the sheet, as cornell_box_water.png in the current folder.
+      The image of the exercise sheet, as cornell_box_water.png in the current folder.
   arty scenes/cornell_box.yml --technique=nee --max-bounces=1 --samples=10
-      Direct light only, to look for faults in next event estimation.
+      Direct light only, to debug next event estimation.
   arty scenes/veach_mis.yml --time=10 -o bsdf.png -o bsdf.exr --technique=bsdf
-      Ten seconds of work, as a picture to look at and one to compute with.
+      Render for ten seconds; save a PNG for viewing and an OpenEXR file with linear data.
   arty scenes/cornell_box.yml --algo=debug --show=normals -s 4
-      Are the surfaces where they should be?
+      Check the geometry.
   arty scenes/cornell_box.yml --time=20 --reference=references/pictures/cornell_box.exr
-      Also the error after 1, 2, 4, … samples, as cornell_box.errors.csv, to plot over time.
+      Also save the error over time, as cornell_box.errors.csv.
   arty scenes/cornell_box.yml --samples=100000 --tev
-      Watch it grow in tev; Ctrl-C stops and saves what is there, twice Ctrl-C quits at once.
+      Watch the image converge in tev. Ctrl-C stops and saves the image; Ctrl-C twice quits immediately.
 
 Exit status:
-  0    the picture is saved as it was asked for
-  2    the command line, the scene or a place for the picture is wrong; nothing was rendered
-  3    the program itself failed, or the algorithm panicked
-  130  interrupted; the picture is saved with the samples it had by then";
+  0    success
+  2    invalid command line, scene or output file; nothing was rendered
+  3    internal error, or the algorithm panicked
+  130  interrupted; the image was saved with the samples rendered so far";
 
 impl Args {
-    /// The command line of a process, the program's name first.
+    /// Parses the arguments of a process, the program's name first.
     ///
     /// # Errors
     ///
-    /// What is wrong with it, or the help or version that it asks for.
+    /// A usage error, or the help or version text that was requested.
     pub(super) fn read(arguments: impl Iterator<Item = OsString>) -> Result<Self, clap::Error> {
         let args = Self::try_parse_from(original_options::rewrite(arguments))?;
         if args.show.is_some() && args.algo != Algo::Debug {
-            let message = "--show is about --algo=debug, which is not asked for";
+            let message = "--show needs --algo=debug";
             return Err(conflict(message));
         }
         if args.reference.is_some() && args.algo == Algo::Debug {
-            return Err(conflict("--reference is about light: it cannot go with --algo=debug"));
+            return Err(conflict("--reference cannot be used with --algo=debug"));
         }
         Ok(args)
     }
@@ -171,12 +173,12 @@ fn conflict(message: &str) -> clap::Error {
 
 fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse().ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-    seconds.filter(|time| !time.is_zero()).ok_or_else(|| "expected a number of seconds above 0".to_owned())
+    seconds.filter(|time| !time.is_zero()).ok_or_else(|| "must be a number of seconds above 0".to_owned())
 }
 
 fn exposure(text: &str) -> Result<f32, String> {
     let stops = text.parse().ok().filter(|stops| (-100.0..=100.0).contains(stops));
-    stops.ok_or_else(|| "expected a number of stops from -100 to 100".to_owned())
+    stops.ok_or_else(|| "must be a number of stops from -100 to 100".to_owned())
 }
 
 #[cfg(test)]
@@ -212,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn short_options_of_the_original_mean_the_same() {
+    fn short_options_of_the_original_program_have_the_same_meaning() {
         let short = read("arty -a debug -sx 64 -sy=48 -s 3 -t 1.5 -o x.PNG x.yml").expect("valid");
         let long =
             read("arty x.yml --algo=debug --width=64 --height=48 --samples=3 --time=1.5 --output=x.PNG");
@@ -222,26 +224,26 @@ mod tests {
     }
 
     #[test]
-    fn several_pictures_may_be_asked_for() {
+    fn several_outputs_can_be_given() {
         let args = read("arty x.yml --output=a.png -o out/b.exr").expect("valid");
         let paths: Vec<_> = args.output.iter().map(|output| output.path().to_str()).collect();
         assert_eq!(paths, [Some("a.png"), Some("out/b.exr")]);
     }
 
     #[test]
-    fn exposures_may_be_negative() {
+    fn exposure_may_be_negative() {
         assert_eq!(read("arty x.yml --exposure=-1.5").expect("valid").exposure, -1.5);
         assert_eq!(read("arty x.yml --exposure -2").expect("valid").exposure, -2.0);
     }
 
     #[test]
-    fn the_viewer_has_an_address_of_its_own() {
+    fn the_viewer_has_a_default_address() {
         assert_eq!(read("arty --tev x.yml").expect("valid").tev.as_deref(), Some(tev::DEFAULT_ADDRESS));
         assert_eq!(read("arty --tev=host:1 x.yml").expect("valid").tev.as_deref(), Some("host:1"));
     }
 
     #[test]
-    fn bad_values_are_refused_with_what_was_expected() {
+    fn invalid_values_are_refused_with_the_expected_ones() {
         let cases = [
             ("arty", "SCENE.yml"),
             ("arty x.yml --algo=photon", "possible values: debug, pt"),
@@ -274,13 +276,13 @@ mod tests {
     }
 
     #[test]
-    fn help_and_version_are_no_errors() {
+    fn help_and_version_are_not_errors() {
         for line in ["arty --help", "arty -h", "arty --version"] {
             let answer = read(line).expect_err("it is an answer");
             assert!(!answer.use_stderr(), "{line}");
         }
         let help = read("arty --help").expect_err("it is an answer").to_string();
-        for option in ["--technique", "-sx", "Examples:", "Exit status:", "By next event estimation"] {
+        for option in ["--technique", "-sx", "Examples:", "Exit status:", "Next event estimation"] {
             assert!(help.contains(option), "{option} is missing in {help}");
         }
     }

@@ -1,4 +1,4 @@
-//! The error of the picture while it is rendered, for plots of error against time.
+//! The error against a reference during rendering, for plots over time.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -10,48 +10,50 @@ use super::messages;
 use super::numbers::counted;
 use super::plan::Plan;
 use super::progress::Progress;
+use crate::diagnostic::Diagnostic;
 use crate::film::Film;
 use crate::image::error::{Truth, mse, relative_mse, trimmed_relative_mse};
 use crate::image::exr::ExrFile;
 use crate::image::{Image, check_writable, write_aside};
-use crate::scene::{Defaults, Diagnostic, SceneDescription};
+use crate::scene::{Defaults, SceneDescription};
 
-/// A row of the table is due when there are this many times the samples of the row before.
+/// Ratio of the numbers of samples of two consecutive rows: enough for a logarithmic axis.
 const STEP: f64 = 1.2;
 
-/// The names of the columns.
+/// Column names.
 const HEADER: &str = "samples_per_pixel,seconds,relative_mse,trimmed_relative_mse,mse\n";
 
-/// The picture that the rendering is compared with.
+/// The reference image.
 #[derive(Debug)]
 pub(super) struct Reference {
     path: PathBuf,
     width: u32,
     height: u32,
-    /// How often its paths were scattered at most, where the file says so.
+    /// Maximum number of bounces, `None` if the file does not tell.
     max_bounces: Option<u32>,
     mean: Vec<[f64; 3]>,
-    /// The variance of the mean, where the file has it.
+    /// Variance of the mean, `None` if the file has none.
     variance: Option<Vec<[f64; 3]>>,
 }
 
 impl Reference {
-    /// The reference that the command line names, if it names one. One of another scene is warned of.
+    /// Reads the reference given on the command line, if any. Warns if it shows another scene.
     ///
     /// # Errors
     ///
-    /// If the file is no OpenEXR file with a colour picture of finite numbers in it.
+    /// If the file is not an OpenEXR file with a colour image of finite values.
     pub(super) fn open(args: &Args, scene: &SceneDescription) -> Result<Option<Self>, Diagnostic> {
         let Some(path) = &args.reference else { return Ok(None) };
         let file = ExrFile::read(path)?;
         let refuse = |message: &str| Diagnostic::about(path, message);
-        let picture =
-            file.layer("").ok_or_else(|| refuse("there is no picture with channels R, G, B in it"))?;
+        let picture = file.layer("").ok_or_else(|| refuse("it has no layer with the channels R, G and B"))?;
         if picture.pixels().iter().any(|pixel| !pixel.is_finite()) {
-            return Err(refuse("not every pixel is a finite number, so nothing can be compared with it"));
+            return Err(refuse("it contains NaN or infinite values"));
         }
         if file.metadata.get("arty:scene_hash").is_some_and(|hash| *hash != scene.hash()) {
-            messages::warning(refuse("it shows another scene, or this one before it was changed"));
+            messages::warning(refuse(
+                "it was rendered from another scene, or from an earlier version of this one",
+            ));
         }
         let sides = (u32::try_from(file.width), u32::try_from(file.height));
         let (Ok(width), Ok(height)) = sides else { return Err(refuse("it is too large")) };
@@ -61,7 +63,7 @@ impl Reference {
         Ok(Some(Self { path: path.clone(), width, height, max_bounces, mean: values(&picture), variance }))
     }
 
-    /// The defaults of a scene with the size of this picture, and as many bounces.
+    /// The defaults of a scene, with the size and the maximum number of bounces of this reference.
     pub(super) fn defaults(&self, of_scene: Defaults) -> Defaults {
         let max_bounces = self.max_bounces.or(of_scene.max_bounces);
         Defaults { width: Some(self.width), height: Some(self.height), max_bounces }
@@ -72,30 +74,30 @@ impl Reference {
     }
 }
 
-/// The errors so far.
+/// The table of errors.
 #[derive(Debug)]
 pub(super) struct ErrorLog {
     reference: Reference,
     file: PathBuf,
     quiet: bool,
-    /// The table as it will be written.
+    /// The contents of the CSV file.
     text: String,
-    /// Samples per pixel of the last row.
+    /// Samples per pixel in the last row.
     last: u64,
 }
 
 impl ErrorLog {
-    /// A log for a rendering as planned.
+    /// Starts a log.
     ///
     /// # Errors
     ///
-    /// If the picture is to have another size than the reference, or the file cannot be written.
+    /// If the image size differs from that of the reference, or the file cannot be written.
     pub(super) fn new(reference: Reference, args: &Args, plan: &Plan) -> Result<Self, Failure> {
         let Reference { width, height, max_bounces, ref path, .. } = reference;
         if (width, height) != (plan.width, plan.height) {
             let message = format!(
-                "the reference has {width} x {height} pixels and the picture is to have {} x {}; \
-                 leave out --width and --height to render it like the reference",
+                "the reference has {width} x {height} pixels, the image would have {} x {}; omit --width and --height \
+                 to render it in the size of the reference",
                 plan.width, plan.height
             );
             return Err(Diagnostic::about(path, message).into());
@@ -104,7 +106,7 @@ impl ErrorLog {
             && settings.max_bounces != bounces
         {
             let message = format!(
-                "it has up to {}, the picture {}",
+                "it was rendered with up to {}, the image has {}",
                 counted(bounces.into(), "bounce"),
                 settings.max_bounces
             );
@@ -115,14 +117,14 @@ impl ErrorLog {
         Ok(Self { reference, file, quiet: args.quiet, text: HEADER.to_owned(), last: 0 })
     }
 
-    /// Takes a row, if it is time for one: as often as is good for a logarithmic axis.
+    /// Adds a row if it is due.
     pub(super) fn update(&mut self, film: &Film, seconds: f64, progress: &Progress) {
         if film.samples() as f64 >= STEP * self.last as f64 {
             self.row(film, seconds, progress);
         }
     }
 
-    /// Takes the last row and writes the file.
+    /// Adds the last row and writes the file.
     ///
     /// # Errors
     ///
@@ -156,7 +158,7 @@ impl ErrorLog {
                 let line = format!(
                     "{samples:>8} samples {seconds:>9.2} s   relMSE {relative:.3e}   MSE {absolute:.3e}"
                 );
-                // Not `println`, which panics if nobody reads any more.
+                // `println` panics if the reader has closed the pipe.
                 let _ = std::io::Write::write_all(&mut std::io::stdout(), format!("{line}\n").as_bytes());
             });
         }
@@ -167,9 +169,9 @@ fn values(image: &Image) -> Vec<[f64; 3]> {
     image.pixels().iter().map(|pixel| pixel.to_array().map(f64::from)).collect()
 }
 
-/// The table of a scene's picture, in the current folder.
+/// The default CSV file of a scene, in the current folder.
 fn default_file(scene: &Path) -> PathBuf {
-    let mut name = scene.file_stem().unwrap_or("picture".as_ref()).to_owned();
+    let mut name = scene.file_stem().unwrap_or("image".as_ref()).to_owned();
     name.push(".errors.csv");
     name.into()
 }

@@ -1,21 +1,21 @@
-//! What a run ends with.
+//! Exit status and failures.
 
 use std::process::ExitCode;
 
-use crate::scene::Diagnostic;
+use crate::diagnostic::Diagnostic;
 
 /// The exit status of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub(super) enum Exit {
-    /// What was asked for is there.
+    /// Success.
     Done = 0,
-    /// The command line, the scene or a place for the picture is wrong. clap ends with the same status.
+    /// Invalid command line, scene or output file. clap uses the same status.
     Refused = 2,
-    /// The program itself failed, or the algorithm panicked.
+    /// Internal error, or the algorithm panicked.
     Broken = 3,
-    /// Someone interrupted. Not 0, though a picture is saved: it is not the one that was asked for, and a script
-    /// that goes on with it should know. 128 + SIGINT is what shells expect of an interrupted program.
+    /// Interrupted. Not 0, although an image is saved: it has fewer samples than requested, and a script should be able
+    /// to tell. By convention 128 + SIGINT.
     Interrupted = 130,
 }
 
@@ -25,35 +25,35 @@ impl From<Exit> for ExitCode {
     }
 }
 
-/// Why there is no picture.
+/// Why rendering failed.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum Failure {
     /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] Diagnostic),
-    /// The picture would have too many pixels.
-    #[error("{width} x {height} pixels are too many: at most {limit} fit into memory and files")]
+    /// The image has too many pixels.
+    #[error("{width} x {height} pixels are too many: the limit is {limit}")]
     TooLarge {
         /// Columns.
         width: u32,
         /// Rows.
         height: u32,
-        /// The most pixels.
+        /// Maximum number of pixels.
         limit: u64,
     },
-    /// The threads cannot be started.
-    #[error("the threads for rendering cannot be started: {0}")]
+    /// The threads could not be started.
+    #[error("could not start the render threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
-    /// Interruptions cannot be caught.
-    #[error("interruptions (Ctrl-C) cannot be caught: {0}")]
+    /// The signal handler could not be installed.
+    #[error("could not install the handler for Ctrl-C: {0}")]
     Interrupt(#[from] ctrlc::Error),
     /// The algorithm panicked.
-    #[error("the algorithm panicked; the message above says where")]
+    #[error("the algorithm panicked; see the message above for the location")]
     Panic,
 }
 
 impl Failure {
-    /// What the program ends with.
+    /// The exit status of the program.
     pub(super) fn exit(&self) -> Exit {
         match self {
             Self::File(_) | Self::TooLarge { .. } => Exit::Refused,
@@ -62,9 +62,9 @@ impl Failure {
     }
 }
 
-/// Prints what clap has to say: an error, or the help or version that was asked for.
+/// Prints an answer of clap: a usage error, or the help or version text that was requested.
 pub(super) fn answer(answer: &clap::Error) -> ExitCode {
-    // Whoever closed the other end of a pipe does not want to read it.
+    // A closed pipe is not an error.
     let _ = answer.print();
     let exit = if answer.use_stderr() { Exit::Refused } else { Exit::Done };
     exit.into()

@@ -1,4 +1,4 @@
-//! What there is in a scene, without rendering it.
+//! Statistics of a scene (`--features`).
 
 use std::fmt::Write as _;
 use std::io::{self, Write as _};
@@ -8,9 +8,9 @@ use super::plan::{max_bounces, size};
 use crate::scene::Scene;
 use crate::scene::file::Loaded;
 
-/// Prints what is known about a scene, and what is odd about it.
+/// Prints the statistics and warnings of a scene.
 pub(super) fn print(args: &Args, loaded: &Loaded, scene: &Scene) {
-    // Nobody may want to read all of it: a closed pipe is no failure.
+    // A closed pipe is not an error.
     let _ = io::stdout().write_all(text(args, loaded, scene).as_bytes());
 }
 
@@ -32,7 +32,7 @@ fn text(args: &Args, loaded: &Loaded, scene: &Scene) -> String {
     }
     let mut text = String::new();
     for (name, value) in rows {
-        // As wide as the rows of the features. Writing to a string cannot fail.
+        // Aligned with the rows of the features. Writing to a string cannot fail.
         let _ = writeln!(text, "{name:<19}{value}");
     }
     let _ = writeln!(text, "{}", scene.features());

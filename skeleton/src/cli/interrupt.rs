@@ -1,16 +1,16 @@
-//! Ctrl-C: the first asks for what is there so far, the second is obeyed at once.
+//! Ctrl-C: the first one stops rendering and saves the image, the second one quits immediately.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::exit::{Exit, Failure};
 
-/// A flag that becomes true at the first interruption (Ctrl-C, or a request to terminate). The second one ends the
-/// process, with nothing saved.
+/// A flag that becomes true at the first interruption (Ctrl-C or SIGTERM). The second one ends the process without
+/// saving anything.
 ///
 /// # Errors
 ///
-/// If the system does not let the program catch interruptions.
+/// If the signal handler cannot be installed.
 pub(super) fn stop_flag() -> Result<Arc<AtomicBool>, Failure> {
     let flag = Arc::new(AtomicBool::new(false));
     let raised = Arc::clone(&flag);

@@ -1,4 +1,4 @@
-//! The picture in a viewer, while it is rendered.
+//! The image in a viewer during rendering.
 
 use std::time::{Duration, Instant};
 
@@ -9,10 +9,10 @@ use super::progress::Progress;
 use crate::film::Film;
 use crate::image::tev::LiveView;
 
-/// How often the viewer gets a new picture. Sending one takes milliseconds, between two passes.
+/// Interval between updates. Sending an image takes some milliseconds between two passes.
 const PERIOD: Duration = Duration::from_secs(1);
 
-/// A viewer that may be there or not. Without one, rendering goes on; that it is lost is said once.
+/// A viewer that may be absent. Losing it is reported once and does not stop rendering.
 #[derive(Debug)]
 pub(super) struct Live {
     view: Option<LiveView>,
@@ -20,14 +20,14 @@ pub(super) struct Live {
 }
 
 impl Live {
-    /// Connects to the viewer at the given address, if there is one.
+    /// Connects to the viewer at the given address; without an address there is none.
     pub(super) fn open(address: Option<&str>, title: &str, plan: &Plan) -> Self {
         let open = |address| LiveView::open(address, title, plan.width, plan.height, &[""]);
         let view = address.and_then(|address| open(address).map_err(messages::warning).ok());
         Self { view, next: Instant::now() }
     }
 
-    /// Shows the film, if it is time for that.
+    /// Sends the film if an update is due.
     pub(super) fn update(&mut self, film: &Film, progress: &Progress) {
         if Instant::now() < self.next {
             return;
@@ -41,7 +41,7 @@ impl Live {
         self.next = Instant::now() + PERIOD;
     }
 
-    /// Shows the finished film.
+    /// Sends the finished film.
     pub(super) fn finish(mut self, film: &Film) {
         self.next = Instant::now();
         self.update(film, &Progress::Hidden);

@@ -1,25 +1,25 @@
-//! Talk: one line each, on the error stream.
+//! Messages: one line each on standard error.
 
 use std::fmt::Display;
 use std::io::{self, Write};
 
-/// Something that made the program give up.
+/// Prints an error, which ends the program.
 pub(super) fn error(message: impl Display) {
     plain(format_args!("error: {message}"));
 }
 
-/// Something that is probably not meant.
+/// Prints a warning: something that is probably unintended.
 pub(super) fn warning(message: impl Display) {
     plain(format_args!("warning: {message}"));
 }
 
-/// Something that is good to know.
+/// Prints a note.
 pub(super) fn note(message: impl Display) {
     plain(format_args!("note: {message}"));
 }
 
-/// What is going on.
+/// Prints a message without a prefix.
 pub(super) fn plain(message: impl Display) {
-    // Not `eprintln`, which panics if nobody reads any more: that must not cost the picture.
+    // `eprintln` panics if the reader has closed the pipe; the image should be saved all the same.
     let _ = writeln!(io::stderr(), "{message}");
 }

@@ -1,14 +1,15 @@
-//! The program: from a command line to a picture.
+//! The command line: from arguments to an image file.
 //!
-//! | module | what it is about |
+//! | module | contents |
 //! |---|---|
-//! | `args`, `original_options` | the command line |
-//! | `plan` | what to render, once the scene is known |
-//! | `session`, `passes` | rendering in passes, until the limits are reached or someone interrupts |
-//! | `progress`, `live`, `messages`, `numbers`, `notes` | what is said and shown meanwhile |
-//! | `output` | picture files |
+//! | `args`, `original_options` | command-line arguments |
+//! | `plan` | render settings, from the arguments and the scene's defaults |
+//! | `session`, `passes` | rendering in passes, until a limit is reached or an interruption |
+//! | `progress`, `live`, `messages`, `numbers`, `notes` | progress display and messages |
+//! | `output` | image files |
 //! | `errors` | the error against a reference |
-//! | `exit` | what a run ends with |
+//! | `inspect` | statistics of a scene |
+//! | `exit` | exit status and failures |
 
 mod args;
 mod errors;
@@ -39,26 +40,26 @@ use self::output::Provenance;
 use self::plan::Plan;
 use self::progress::Progress;
 
-/// What the program is asked to show. `main` knows how to make the integrator for it.
+/// The algorithm to render with. `main` makes the integrator for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Algorithm {
-    /// A property of the surfaces that the camera sees.
+    /// A property of the visible surfaces.
     Debug(DebugView),
-    /// The light of the scene, by path tracing.
+    /// Light transport by path tracing.
     PathTracer(Settings),
 }
 
-/// What the debug algorithm shows.
+/// The property that the debug algorithm shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum DebugView {
-    /// Shading normals: x, y and z in [-1, 1] as red, green and blue in [0, 1].
+    /// Shading normals: x, y, z in [-1, 1] as red, green, blue in [0, 1].
     Normals,
-    /// The share of light that surfaces scatter.
+    /// Albedo: the fraction of light that surfaces scatter.
     Albedo,
 }
 
 impl DebugView {
-    /// Its name on command lines and in pictures.
+    /// The name on command lines and in image metadata.
     fn name(self) -> &'static str {
         match self {
             Self::Normals => "normals",
@@ -69,9 +70,9 @@ impl DebugView {
 
 /// Runs the program with the arguments of this process; `make` makes the integrator for an algorithm.
 ///
-/// The exit status is 0 if the picture is there as it was asked for; 2 if the command line, the scene or a place
-/// for the picture is wrong, which is found out before anything is rendered; 3 if the program itself failed; 130
-/// if it was interrupted (the picture is saved with the samples it has by then).
+/// The exit status is 0 on success; 2 for an invalid command line, scene or output file, which is detected before
+/// anything is rendered; 3 for an internal error or a panic of the algorithm; 130 after an interruption (the image is
+/// saved with the samples rendered so far).
 pub fn run(make: impl FnOnce(Algorithm) -> Box<dyn Integrator>) -> ExitCode {
     let args = match Args::read(std::env::args_os()) {
         Ok(args) => args,
@@ -103,10 +104,10 @@ fn execute(args: &Args, make: impl FnOnce(Algorithm) -> Box<dyn Integrator>) -> 
     let mut errors = reference.map(|reference| ErrorLog::new(reference, args, &plan)).transpose()?;
     plan.outputs.iter().try_for_each(|output| output.check())?;
     let provenance = Provenance::new(&args.scene, &loaded.description, &plan);
-    // The scene has its own copy of what it needs.
+    // The scene has its own copy of the data.
     drop(loaded);
 
-    // Until here, Ctrl-C simply ends the program: there is nothing to save.
+    // Up to here Ctrl-C just ends the program: there is nothing to save.
     let stop = interrupt::stop_flag()?;
     if !args.quiet {
         notes::before(&plan.algorithm, scene.features()).iter().for_each(messages::note);

@@ -1,4 +1,4 @@
-//! What whoever looks at the picture should know.
+//! Notes and warnings about an image.
 
 use super::Algorithm;
 use super::numbers::counted;
@@ -7,50 +7,50 @@ use crate::film::Anomalies;
 use crate::integrator::{Settings, Technique};
 use crate::scene::Features;
 
-/// What can be known about the picture before it is rendered.
+/// What can be told before rendering.
 pub(super) fn before(algorithm: &Algorithm, features: &Features) -> Option<String> {
     let Algorithm::PathTracer(Settings { technique, .. }) = algorithm else { return None };
     if !features.has_lights() {
-        return Some("the scene has no lights, so the picture will be black".to_owned());
+        return Some("the scene has no lights: the image will be black".to_owned());
     }
     if *technique != Technique::Bsdf || features.point_lights == 0 {
         return None;
     }
     let consequence = match features.area_lights {
-        0 => "the picture will be black".to_owned(),
-        _ => format!("{} will be missing", counted(features.point_lights as u64, "point-like light")),
+        0 => "the image will be black".to_owned(),
+        _ => format!("{} will be missing", counted(features.point_lights as u64, "point light")),
     };
-    Some(format!("a path never hits a point light by chance, so {consequence}: use --technique=nee"))
+    Some(format!("BSDF sampling never finds a point light, so {consequence}: use --technique=nee"))
 }
 
-/// What only the finished picture tells.
+/// What can be told from the finished image.
 pub(super) fn after(algorithm: &Algorithm, features: &Features, rendering: &Rendering) -> Option<String> {
     if !matches!(algorithm, Algorithm::PathTracer(_)) || before(algorithm, features).is_some() {
         return None;
     }
     let is_black = rendering.film.pixels().iter().all(|pixel| pixel.sum == [0.0; 3]);
     let lights = counted((features.area_lights + features.point_lights) as u64, "light");
-    is_black
-        .then(|| format!("the picture is black: not one sample found light, though the scene has {lights}"))
+    is_black.then(|| format!("the image is black: no sample found light, although the scene has {lights}"))
 }
 
-/// What went wrong with single samples.
+/// A warning about samples that are not finite or negative.
 pub(super) fn anomalies(anomalies: &Anomalies) -> Option<String> {
     let first = anomalies.first.first()?;
-    let kinds = [
-        (anomalies.non_finite, "not finite (NaN or infinite), and counted as black"),
-        (anomalies.negative, "negative"),
-    ];
+    let kinds =
+        [(anomalies.non_finite, "NaN or infinite (counted as black)"), (anomalies.negative, "negative")];
     let kinds: Vec<String> = kinds
         .into_iter()
         .filter(|(count, _)| *count > 0)
         .map(|(count, kind)| {
-            format!("{} {kind}", if count == 1 { "1 is".into() } else { format!("{count} are") })
+            format!(
+                "{} {kind}",
+                if count == 1 { "1 sample is".into() } else { format!("{count} samples are") }
+            )
         })
         .collect();
     let value = first.value.to_array();
     Some(format!(
-        "of all samples, {}; the first is sample {} of pixel ({}, {}), {value:?}",
+        "{}; the first is sample {} of pixel ({}, {}): {value:?}",
         kinds.join(", "),
         first.sample,
         first.x,
@@ -87,17 +87,17 @@ mod tests {
     }
 
     #[test]
-    fn point_lights_are_not_left_to_chance_unawares() {
+    fn bsdf_sampling_with_point_lights_gives_a_note() {
         let bsdf = path_tracer(Technique::Bsdf);
         let note = |area_lights, point_lights| before(&bsdf, &features(area_lights, point_lights));
         assert!(note(0, 1).expect("a note").contains("black: use --technique=nee"));
-        assert!(note(2, 1).expect("a note").contains("1 point-like light will be missing"));
+        assert!(note(2, 1).expect("a note").contains("1 point light will be missing"));
         assert_eq!(note(2, 0), None);
         assert_eq!(before(&path_tracer(Technique::Nee), &features(0, 1)), None);
     }
 
     #[test]
-    fn without_lights_there_is_nothing_to_see_but_surfaces() {
+    fn a_scene_without_lights_gives_a_note() {
         for technique in Technique::ALL {
             let note = before(&path_tracer(technique), &features(0, 0));
             assert!(note.expect("a note").contains("no lights"));
@@ -106,23 +106,23 @@ mod tests {
     }
 
     #[test]
-    fn a_black_picture_is_remarked_once() {
+    fn a_black_image_is_noted_once() {
         let film = Film::new(2, 2);
         let black = Rendering { film, elapsed: Duration::from_secs(1), interrupted: false };
         let note = |technique| after(&path_tracer(technique), &features(0, 1), &black);
         assert!(note(Technique::Nee).expect("a note").contains("the scene has 1 light"));
-        assert_eq!(note(Technique::Bsdf), None, "it was said before");
+        assert_eq!(note(Technique::Bsdf), None, "this was noted before rendering");
     }
 
     #[test]
-    fn anomalies_are_counted_and_the_first_is_named() {
+    fn anomalies_are_counted_and_the_first_is_located() {
         assert_eq!(anomalies(&Anomalies::default()), None);
         let first = vec![Anomaly { x: 3, y: 4, sample: 7, value: Rgb::new(f32::NAN, 0.5, -1.0) }];
         let text = anomalies(&Anomalies { non_finite: 1, negative: 12, first }).expect("a warning");
         assert_eq!(
             text,
-            "of all samples, 1 is not finite (NaN or infinite), and counted as black, 12 are negative; the first is \
-             sample 7 of pixel (3, 4), [NaN, 0.5, -1.0]"
+            "1 sample is NaN or infinite (counted as black), 12 samples are negative; the first is sample 7 of pixel \
+             (3, 4): [NaN, 0.5, -1.0]"
         );
     }
 }

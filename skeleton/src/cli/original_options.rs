@@ -1,10 +1,10 @@
-//! Options of the original program that clap cannot express.
+//! Options of the original program that clap does not support.
 
 use std::ffi::OsString;
 
-/// The arguments with `-sx` and `-sy` written as `--width` and `--height`.
+/// Rewrites `-sx` and `-sy` to `--width` and `--height`; clap would parse `-sx` as `-s x`.
 ///
-/// clap would read `-sx` as `-s x`. Only `-sx`, `-sy`, `-sx=N` and `-sy=N` are meant, and nothing after `--`.
+/// Applies to `-sx`, `-sy`, `-sx=N` and `-sy=N`, before any `--`.
 pub(super) fn rewrite(arguments: impl Iterator<Item = OsString>) -> impl Iterator<Item = OsString> {
     let mut options_ended = false;
     arguments.map(move |argument| {
@@ -45,7 +45,7 @@ mod tests {
     }
 
     #[test]
-    fn everything_else_stays() {
+    fn all_other_arguments_stay() {
         for line in ["arty -s 8 -s8 -sx8 -syz", "arty --width=3", "arty -- -sx 64", "arty x=-sx"] {
             assert_eq!(rewritten(line), line);
         }

@@ -1,4 +1,4 @@
-//! Picture files.
+//! Image files.
 
 use std::path::{Path, PathBuf};
 
@@ -7,13 +7,14 @@ use super::exit::Failure;
 use super::messages;
 use super::plan::Plan;
 use super::session::Rendering;
+use crate::diagnostic::Diagnostic;
 use crate::film::{Film, Pixel};
 use crate::image::exr::{ExrFile, Precision};
 use crate::image::{Image, check_writable, write_png};
 use crate::math::Rgb;
-use crate::scene::{Diagnostic, SceneDescription};
+use crate::scene::SceneDescription;
 
-/// A file to save the picture in.
+/// An output file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Output {
     path: PathBuf,
@@ -27,7 +28,7 @@ enum Format {
 }
 
 impl Output {
-    /// A file whose format its name tells.
+    /// An output file; its extension determines the format.
     ///
     /// # Errors
     ///
@@ -37,22 +38,22 @@ impl Output {
         let format = match extension.as_deref().and_then(|extension| extension.to_str()) {
             Some("png") => Format::Png,
             Some("exr") => Format::Exr,
-            _ => return Err("expected a name that ends in .png or .exr".to_owned()),
+            _ => return Err("must end in .png or .exr".to_owned()),
         };
         Ok(Self { path, format })
     }
 
-    /// A PNG file, whatever its name.
+    /// A PNG file with any name.
     pub(super) fn png(path: PathBuf) -> Self {
         Self { path, format: Format::Png }
     }
 
-    /// Where it is.
+    /// The path of the file.
     pub(super) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Finds out before rendering whether the file can be there afterwards.
+    /// Checks that the file can be written.
     ///
     /// # Errors
     ///
@@ -69,11 +70,11 @@ impl Output {
     }
 }
 
-/// Saves the picture in all of its files.
+/// Writes all output files.
 ///
 /// # Errors
 ///
-/// The last file that cannot be written. The others are written nevertheless, or named on the error stream.
+/// The last file that cannot be written; earlier failures are printed. All other files are written.
 pub(super) fn save_all(
     plan: &Plan,
     provenance: &Provenance,
@@ -95,9 +96,10 @@ pub(super) fn save_all(
     failure.map_or(Ok(()), |error| Err(error.into()))
 }
 
-/// Where a picture comes from: what is known before it is rendered.
+/// Metadata on how an image was rendered, as far as it is known before rendering.
 ///
-/// It names the scene by its file and its content, not by its folder, which says nothing on another computer.
+/// The scene is identified by its file name and content hash, not by its folder, which means nothing on another
+/// machine.
 #[derive(Clone, Debug)]
 pub(super) struct Provenance {
     scene: String,
@@ -105,7 +107,7 @@ pub(super) struct Provenance {
 }
 
 impl Provenance {
-    /// The provenance of a picture of the scene in the given file.
+    /// The metadata of an image of the scene in the given file.
     pub(super) fn new(scene: &Path, description: &SceneDescription, plan: &Plan) -> Self {
         let scene = scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let mut entries = vec![
@@ -127,20 +129,19 @@ impl Provenance {
         Self { scene, entries }
     }
 
-    /// A name for the picture in a viewer.
+    /// The name of the image in a viewer.
     pub(super) fn title(&self) -> &str {
         &self.scene
     }
 
-    /// The file for a picture: `R`, `G`, `B` are the mean of the samples, `variance.R`, … the variance of that
-    /// mean.
+    /// The OpenEXR file: `R`, `G`, `B` are the mean of the samples, `variance.R`, … the variance of that mean.
     ///
-    /// Without two samples per pixel there is no estimate of the variance, and so no such layer.
+    /// With fewer than two samples per pixel the variance cannot be estimated, and the layer is omitted.
     fn exr(&self, rendering: &Rendering) -> ExrFile {
         let film = &rendering.film;
         let mut file = ExrFile::new(&mean(film));
         if film.samples() >= 2 {
-            file = file.with_layer("variance", &picture(film, Pixel::variance_of_mean));
+            file = file.with_layer("variance", &image(film, Pixel::variance_of_mean));
         }
         let anomalies = film.anomalies();
         let results = [
@@ -155,12 +156,12 @@ impl Provenance {
     }
 }
 
-/// The estimate of each pixel's radiance.
+/// The mean of each pixel: the estimate of its radiance.
 pub(super) fn mean(film: &Film) -> Image {
-    picture(film, Pixel::mean)
+    image(film, Pixel::mean)
 }
 
-fn picture(film: &Film, value: impl Fn(&Pixel) -> Rgb) -> Image {
+fn image(film: &Film, value: impl Fn(&Pixel) -> Rgb) -> Image {
     let pixels = film.pixels().iter().map(value).collect();
     Image::from_pixels(film.width() as usize, film.height() as usize, pixels)
 }
@@ -170,12 +171,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_extension_tells_the_format() {
+    fn the_extension_determines_the_format() {
         let format = |name: &str| Output::new(name.into()).map(|output| output.format);
         assert_eq!(format("a/x.png"), Ok(Format::Png));
         assert_eq!(format("x.EXR"), Ok(Format::Exr));
         for name in ["x", "x.jpg", ".png", "x.png/", "x.pn g", ""] {
-            let expected = if name == "x.png/" { Ok(Format::Png) } else { Err("expected".to_owned()) };
+            let expected = if name == "x.png/" { Ok(Format::Png) } else { Err("must end".to_owned()) };
             assert_eq!(format(name).map_err(|message| message[..8].to_owned()), expected, "{name}");
         }
     }

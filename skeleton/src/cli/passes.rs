@@ -1,25 +1,26 @@
-//! How many samples to take at a time, and when to stop.
+//! Division of the samples into passes.
 
 use std::ops::Range;
 use std::time::Duration;
 
-/// When to stop, whichever comes first. At least one of the two is given.
+/// Limits of a rendering; it ends at whichever is reached first. At least one of the two is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Limits {
-    /// This many samples per pixel.
+    /// Samples per pixel.
     pub(super) samples: Option<u64>,
-    /// This long, but at least one sample per pixel.
+    /// Wall-clock time, exceeded only to give each pixel one sample.
     pub(super) time: Option<Duration>,
 }
 
-/// How long a pass should take: short enough to look alive, long enough for threads to have something to share.
+/// Target duration of a pass: short enough for a live display, long enough to keep all threads busy.
 const PASS: Duration = Duration::from_millis(200);
-/// A pass is at most this many times as large as the one before, since the first ones are hard to time.
+/// Maximum ratio of the sizes of two consecutive passes, since timings of small passes are unreliable.
 const GROWTH: u64 = 4;
 
-/// Divides the samples of a picture into passes of about the same time.
+/// Divides the samples of an image into passes of similar duration.
 ///
-/// The picture does not depend on it: each sample has its own random numbers, and each pixel adds them in order.
+/// The image does not depend on the division: each sample has its own random numbers, and each pixel adds its samples
+/// in order.
 #[derive(Debug)]
 pub(super) struct Passes {
     limits: Limits,
@@ -29,20 +30,20 @@ pub(super) struct Passes {
 }
 
 impl Passes {
-    /// Nothing is done yet.
+    /// No sample is done yet.
     pub(super) fn new(limits: Limits) -> Self {
         Self { limits, done: 0, last: 0, seconds_per_sample: 0.0 }
     }
 
-    /// How many samples per pixel are done.
+    /// Number of samples per pixel done so far.
     pub(super) fn done(&self) -> u64 {
         self.done
     }
 
-    /// The numbers of the samples to take next, given how long it has been since the start; `None` at the end.
+    /// The sample numbers of the next pass, given the time since the start; `None` when a limit is reached.
     pub(super) fn next(&self, elapsed: Duration) -> Option<Range<u64>> {
         if self.done == 0 {
-            // One sample per pixel, to see how long it takes.
+            // One sample per pixel, to measure the time it takes.
             return Some(0..1);
         }
         let mut seconds = PASS.as_secs_f64();
@@ -53,21 +54,21 @@ impl Passes {
             }
             seconds = seconds.min(left.as_secs_f64());
         }
-        // The cast saturates where a sample took no measurable time.
+        // The cast saturates if the time was too short to measure.
         let fitting = (seconds / self.seconds_per_sample) as u64;
         let left = self.limits.samples.map_or(u64::MAX, |samples| samples - self.done);
         let count = fitting.clamp(1, GROWTH.saturating_mul(self.last)).min(left);
         (count > 0).then(|| self.done..self.done + count)
     }
 
-    /// Takes note of a pass: its samples, and how long it took.
+    /// Records a finished pass and its duration.
     pub(super) fn finish(&mut self, pass: Range<u64>, took: Duration) {
         self.last = pass.end - pass.start;
         self.done = pass.end;
         self.seconds_per_sample = took.as_secs_f64() / self.last as f64;
     }
 
-    /// The share of all work that is done, in [0, 1].
+    /// Fraction of the work done, in [0, 1].
     pub(super) fn fraction(&self, elapsed: Duration) -> f64 {
         let by_samples = self.limits.samples.map_or(0.0, |samples| self.done as f64 / samples as f64);
         let by_time = self.limits.time.map_or(0.0, |time| elapsed.as_secs_f64() / time.as_secs_f64());
@@ -81,7 +82,7 @@ mod tests {
 
     const SECOND: Duration = Duration::from_secs(1);
 
-    /// The passes of a computer that takes the given time for a sample of all pixels.
+    /// The passes on a machine that takes the given time per sample of all pixels.
     fn passes(limits: Limits, per_sample: Duration) -> (Vec<Range<u64>>, Duration) {
         let mut passes = Passes::new(limits);
         let (mut all, mut elapsed) = (Vec::new(), Duration::ZERO);
@@ -95,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn passes_follow_each_other_to_the_last_sample() {
+    fn passes_are_contiguous_up_to_the_last_sample() {
         for per_sample in [Duration::ZERO, Duration::from_micros(3), Duration::from_millis(15), 2 * SECOND] {
             for samples in [1, 2, 8, 1000] {
                 let (passes, _) = passes(Limits { samples: Some(samples), time: None }, per_sample);
@@ -107,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn passes_take_about_as_long_as_they_should() {
+    fn passes_approach_the_target_duration() {
         let per_sample = Duration::from_millis(1);
         let (passes, _) = passes(Limits { samples: Some(10_000), time: None }, per_sample);
         let sizes: Vec<u64> = passes.iter().map(|pass| pass.end - pass.start).collect();
@@ -115,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn time_ends_them_too_but_not_before_the_first_sample() {
+    fn the_time_limit_ends_them_after_at_least_one_sample() {
         let limits = Limits { samples: None, time: Some(2 * SECOND) };
         let (_, elapsed) = passes(limits, Duration::from_millis(7));
         assert!(elapsed >= 2 * SECOND && elapsed <= 2 * SECOND + Duration::from_millis(7), "{elapsed:?}");
@@ -124,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn whichever_limit_comes_first_counts() {
+    fn the_limit_reached_first_counts() {
         let limits = Limits { samples: Some(50), time: Some(10 * SECOND) };
         let (few, elapsed) = passes(limits, Duration::from_millis(1));
         assert_eq!((few[few.len() - 1].end, elapsed), (50, Duration::from_millis(50)));

@@ -1,4 +1,4 @@
-//! What to render: the command line, completed by what the scene suggests.
+//! Render settings: the command line, completed by the defaults of the scene.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -17,10 +17,10 @@ const DEFAULT_HEIGHT: u32 = 412;
 const DEFAULT_SAMPLES: u64 = 64;
 const DEFAULT_MAX_BOUNCES: u32 = 8;
 
-/// The most pixels: with more, an OpenEXR file of a mean and a variance could not be read again.
+/// Maximum number of pixels: an OpenEXR file with a mean and a variance of more could not be read again.
 const MAX_PIXELS: u64 = 1 << 25;
 
-/// Everything that a rendering depends on, but for the scene.
+/// Everything that a rendering depends on, except the scene.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
     pub(super) algorithm: Algorithm,
@@ -30,20 +30,20 @@ pub(super) struct Plan {
     pub(super) height: u32,
     pub(super) limits: Limits,
     pub(super) seed: u64,
-    /// How many threads; `None` for one for each processor.
+    /// Number of threads; `None` for one per processor.
     pub(super) threads: Option<usize>,
-    /// Where to save the picture; at least one.
+    /// Output files; at least one.
     pub(super) outputs: Vec<Output>,
-    /// Brightening of PNG files, in stops.
+    /// Exposure of PNG files in stops.
     pub(super) exposure: f32,
 }
 
 impl Plan {
-    /// The plan for a command line and the defaults of its scene.
+    /// Combines a command line and the defaults of its scene.
     ///
     /// # Errors
     ///
-    /// If the picture would have too many pixels.
+    /// If the image has too many pixels.
     pub(super) fn new(args: &Args, defaults: Defaults) -> Result<Self, Failure> {
         let (width, height) = size(args, defaults);
         if u64::from(width) * u64::from(height) > MAX_PIXELS {
@@ -73,11 +73,11 @@ impl Plan {
     }
 }
 
-/// Columns and rows of the picture.
+/// Width and height of the image in pixels.
 pub(super) fn size(args: &Args, defaults: Defaults) -> (u32, u32) {
     let (width, height) =
         (defaults.width.unwrap_or(DEFAULT_WIDTH), defaults.height.unwrap_or(DEFAULT_HEIGHT));
-    // One of the two alone keeps the proportions.
+    // A single one keeps the aspect ratio.
     let scaled = |given: u32, other: u32, of: u32| {
         let exact = f64::from(given) * f64::from(other) / f64::from(of);
         (exact.round() as u32).max(1)
@@ -90,15 +90,15 @@ pub(super) fn size(args: &Args, defaults: Defaults) -> (u32, u32) {
     }
 }
 
-/// How often a path is scattered at most.
+/// Maximum number of bounces.
 pub(super) fn max_bounces(args: &Args, defaults: Defaults) -> u32 {
     args.max_bounces.or(defaults.max_bounces).unwrap_or(DEFAULT_MAX_BOUNCES)
 }
 
-/// The picture of a scene, in the current folder.
+/// The default output of a scene, in the current folder.
 fn default_output(scene: &Path) -> PathBuf {
-    let mut name = scene.file_stem().unwrap_or("picture".as_ref()).to_owned();
-    // Not `with_extension`: the stem may have dots of its own.
+    let mut name = scene.file_stem().unwrap_or("image".as_ref()).to_owned();
+    // `with_extension` would cut off a stem with dots.
     name.push(".png");
     name.into()
 }
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn what_nobody_says_has_a_default() {
+    fn unspecified_settings_have_defaults() {
         let plan = plan("arty scenes/box.v2.yml", Defaults::default()).expect("valid");
         assert_eq!((plan.width, plan.height), (512, 412));
         assert_eq!(plan.limits, Limits { samples: Some(64), time: None });
@@ -154,19 +154,19 @@ mod tests {
     }
 
     #[test]
-    fn the_scene_suggests_and_the_command_line_decides() {
+    fn the_command_line_overrides_the_defaults_of_the_scene() {
         let suggested = plan("arty x.yml", SUGGESTED).expect("valid");
         assert_eq!((suggested.width, suggested.height, settings(&suggested).max_bounces), (300, 200, 3));
         let decided = plan("arty x.yml --width=64 --max-bounces=0", SUGGESTED).expect("valid");
         assert_eq!(
             (decided.width, decided.height, settings(&decided).max_bounces),
             (64, 43, 0),
-            "two thirds as high as wide, as suggested"
+            "the aspect ratio is the scene's"
         );
     }
 
     #[test]
-    fn time_takes_the_place_of_the_default_number_of_samples_only() {
+    fn a_time_limit_replaces_only_the_default_number_of_samples() {
         let second = Some(Duration::from_secs(1));
         let limits = |line| plan(line, SUGGESTED).expect("valid").limits;
         assert_eq!(limits("arty x.yml --time=1"), Limits { samples: None, time: second });
@@ -174,14 +174,14 @@ mod tests {
     }
 
     #[test]
-    fn debug_shows_normals_unless_told_otherwise() {
+    fn debug_shows_normals_by_default() {
         let view = |line| plan(line, SUGGESTED).expect("valid").algorithm;
         assert_eq!(view("arty x.yml -a debug"), Algorithm::Debug(DebugView::Normals));
         assert_eq!(view("arty x.yml -a debug --show=albedo"), Algorithm::Debug(DebugView::Albedo));
     }
 
     #[test]
-    fn a_picture_that_does_not_fit_into_memory_is_refused() {
+    fn an_image_that_is_too_large_is_refused() {
         plan("arty x.yml --width=8192 --height=4096", SUGGESTED).expect("just fits");
         let failure = plan("arty x.yml --width=65536 --height=65536", SUGGESTED).expect_err("too large");
         assert!(failure.to_string().starts_with("65536 x 65536 pixels are too many"), "{failure}");

@@ -1,4 +1,4 @@
-//! How far rendering has come: a bar on a terminal, now and then a line elsewhere.
+//! Progress display: a bar on a terminal, otherwise a line every few seconds.
 
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
@@ -10,10 +10,10 @@ use super::numbers::{clock, counted, speed};
 use super::passes::Passes;
 use super::plan::Plan;
 
-/// How far rendering has come.
+/// The state of a rendering.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct State {
-    /// The share of all work that is done, in [0, 1].
+    /// Fraction of the work done, in [0, 1].
     pub(super) fraction: f64,
     pub(super) elapsed: Duration,
     /// Samples per pixel so far.
@@ -31,40 +31,40 @@ impl State {
         Self { fraction: passes.fraction(elapsed), elapsed, samples, speed }
     }
 
-    /// How long the rest takes, if it goes on like this.
+    /// Estimated remaining time.
     fn remaining(&self) -> Duration {
         let seconds = self.elapsed.as_secs_f64() * (1.0 / self.fraction - 1.0);
         Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)
     }
 
-    /// Everything but the share that is done and the time that it took.
+    /// The text after the percentage and the elapsed time.
     fn rest(&self) -> String {
         let samples = counted(self.samples, "sample");
         format!("{}  {samples} per pixel  {} left", speed(self.speed), clock(self.remaining()))
     }
 }
 
-/// Where progress is shown.
+/// How progress is shown.
 #[derive(Debug)]
 pub(super) enum Progress {
-    /// Nowhere.
+    /// Not at all.
     Hidden,
     /// As a bar on a terminal.
     Bar(ProgressBar),
     /// As a line every few seconds.
     Lines {
-        /// When to write the next one.
+        /// When the next line is due.
         next: Instant,
     },
 }
 
-/// Steps of the bar.
+/// Resolution of the bar.
 const STEPS: u64 = 1000;
-/// How often a line is written.
+/// Interval between lines.
 const LINE_PERIOD: Duration = Duration::from_secs(10);
 
 impl Progress {
-    /// A bar if someone looks, lines if the error stream goes to a file, nothing if that is asked for.
+    /// A bar on a terminal, lines if standard error is redirected, nothing if `quiet`.
     pub(super) fn new(quiet: bool) -> Self {
         if quiet {
             return Self::Hidden;
@@ -74,12 +74,12 @@ impl Progress {
         }
         let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {elapsed_precise}  {msg}");
         let bar = ProgressBar::new(STEPS).with_style(style.expect("the template is valid"));
-        // The clock goes on during a long pass.
+        // Keeps the clock running during a long pass.
         bar.enable_steady_tick(Duration::from_millis(500));
         Self::Bar(bar)
     }
 
-    /// Shows the state, if it is time for that.
+    /// Shows the state if an update is due.
     pub(super) fn update(&mut self, state: &State) {
         match self {
             Self::Hidden => {}
@@ -102,7 +102,7 @@ impl Progress {
         }
     }
 
-    /// Lets something else be said meanwhile.
+    /// Prints something else without disturbing the bar.
     pub(super) fn interject(&self, speak: impl FnOnce()) {
         match self {
             Self::Bar(bar) => bar.suspend(speak),
@@ -110,7 +110,7 @@ impl Progress {
         }
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     pub(super) fn finish(self) {
         if let Self::Bar(bar) = self {
             bar.finish_and_clear();
@@ -123,7 +123,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_state_tells_what_is_left() {
+    fn a_state_shows_the_remaining_time() {
         let elapsed = Duration::from_secs(30);
         let state = State { fraction: 0.25, elapsed, samples: 16, speed: 2.5e6 };
         assert_eq!(state.rest(), "2.50 M samples/s  16 samples per pixel  1:30 left");

@@ -1,4 +1,4 @@
-//! Rendering in passes, until the limits are reached or someone interrupts.
+//! Rendering in passes, until a limit is reached or an interruption.
 
 use std::fmt;
 use std::panic::{self, AssertUnwindSafe};
@@ -15,17 +15,17 @@ use crate::integrator::Integrator;
 use crate::render::render;
 use crate::scene::Scene;
 
-/// A picture, and how it came about.
+/// A finished or interrupted rendering.
 #[derive(Debug)]
 pub(super) struct Rendering {
     pub(super) film: Film,
     /// Wall-clock time.
     pub(super) elapsed: Duration,
-    /// True if `stop` ended it before its limits: then some pixels may have more samples than others.
+    /// True if it was interrupted: then some pixels may have more samples than others.
     pub(super) interrupted: bool,
 }
 
-/// Renders as planned. After each pass, `watch` sees the film and how far it has come.
+/// Renders a scene. After each pass, `watch` is called with the film and the state.
 ///
 /// # Errors
 ///
@@ -37,7 +37,7 @@ pub(super) fn render_scene(
     stop: &AtomicBool,
     mut watch: impl FnMut(&Film, &State),
 ) -> Result<Rendering, Failure> {
-    // Zero threads: as many as there are processors.
+    // Zero threads: one per processor.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(plan.threads.unwrap_or(0)).build()?;
     let mut film = Film::new(plan.width, plan.height);
     let mut passes = Passes::new(plan.limits);
@@ -48,7 +48,7 @@ pub(super) fn render_scene(
         let mut take = || {
             pool.install(|| render(integrator, scene, &mut film, pass.clone(), plan.seed, stop));
         };
-        // A film that was left in the middle is of no further use, so nothing broken can be seen.
+        // After a panic the film is dropped, so its state does not matter.
         panic::catch_unwind(AssertUnwindSafe(&mut take)).map_err(|_| Failure::Panic)?;
         interrupted = stop.load(Ordering::Relaxed);
         if interrupted {
@@ -63,15 +63,15 @@ pub(super) fn render_scene(
 impl fmt::Display for Rendering {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let counts = || self.film.pixels().iter().map(|pixel| pixel.count);
-        let (fewest, most, all) = (self.film.samples(), counts().max().unwrap_or(0), counts().sum::<u64>());
+        let (min, max, all) = (self.film.samples(), counts().max().unwrap_or(0), counts().sum::<u64>());
         if self.interrupted {
             write!(f, "interrupted: ")?;
         }
-        if fewest < most {
-            write!(f, "{fewest} to ")?;
+        if min < max {
+            write!(f, "{min} to ")?;
         }
         let seconds = self.elapsed.as_secs_f64();
-        let samples = counted(most, "sample");
+        let samples = counted(max, "sample");
         write!(f, "{samples} per pixel in {seconds:.2} s, {}", speed(all as f64 / seconds.max(1e-9)))
     }
 }
@@ -84,7 +84,7 @@ mod tests {
     use crate::sampler::Sampler;
     use crate::scene::{CameraDescription, Defaults, SceneDescription};
 
-    /// Gives random numbers, and raises a flag or panics when it has given so many.
+    /// Returns random numbers, and triggers an event at the call number `at`.
     struct Noise<'a> {
         calls: std::sync::atomic::AtomicU64,
         at: u64,
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn passes_do_not_change_the_picture() {
+    fn passes_do_not_change_the_image() {
         let (scene, plan, stop) = (empty_scene(), plan("--samples=37 --seed=5"), AtomicBool::new(false));
         let noise = Noise::new(0, &|| ());
         let mut watched = Vec::new();
@@ -139,18 +139,18 @@ mod tests {
     }
 
     #[test]
-    fn an_interruption_keeps_what_is_there() {
+    fn an_interruption_keeps_the_samples_so_far() {
         let (scene, plan, stop) = (empty_scene(), plan("--time=3600"), AtomicBool::new(false));
         let raise = || stop.store(true, Ordering::Relaxed);
         // The first pass has 48 samples, so this is in a later one.
         let rendering = render_scene(&Noise::new(100, &raise), &scene, &plan, &stop, |_, _| ());
-        let rendering = rendering.expect("an interruption is no failure");
+        let rendering = rendering.expect("an interruption is not a failure");
         assert!(rendering.interrupted && rendering.film.samples() >= 1);
         assert!(rendering.to_string().starts_with("interrupted: "), "{rendering}");
     }
 
     #[test]
-    fn a_panic_of_the_algorithm_is_a_failure_with_its_own_status() {
+    fn a_panic_of_the_algorithm_has_its_own_exit_status() {
         let (scene, plan, stop) = (empty_scene(), plan("--samples=9"), AtomicBool::new(false));
         let noise = Noise::new(100, &|| panic!("on purpose"));
         let failure = render_scene(&noise, &scene, &plan, &stop, |_, _| ()).expect_err("it panicked");

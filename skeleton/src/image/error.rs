@@ -1,4 +1,4 @@
-//! How far a picture is from a reference, in one number.
+//! How far an image is from a reference, in one number.
 //!
 //! All lists are pixels row by row, three channels each, linear. A reference that was rendered has noise of its own;
 //! where its variance is given, it is subtracted, so that the mean of what is left is the error against the truth.
@@ -10,7 +10,7 @@ pub const RELATIVE_EPSILON: f64 = 0.01;
 /// The share of pixels that [`trimmed_relative_mse`] leaves out.
 pub const TRIMMED_SHARE: f64 = 0.001;
 
-/// A picture to compare with.
+/// An image to compare with.
 #[derive(Clone, Copy, Debug)]
 pub struct Truth<'a> {
     /// Its pixels.
@@ -24,7 +24,7 @@ impl Truth<'_> {
     ///
     /// # Panics
     ///
-    /// If the picture has not as many pixels as the reference.
+    /// If the image has not as many pixels as the reference.
     fn pixel_errors(&self, picture: &[[f64; 3]], weight: impl Fn(f64) -> f64) -> Vec<f64> {
         assert_eq!(picture.len(), self.mean.len(), "pixels");
         let noise = |pixel: usize, channel: usize| self.variance.map_or(0.0, |list| list[pixel][channel]);
@@ -37,11 +37,11 @@ impl Truth<'_> {
     }
 }
 
-/// The mean squared error, mean((x − r)²) over pixels and channels. 0 for a picture without pixels.
+/// The mean squared error, mean((x − r)²) over pixels and channels. 0 for an image without pixels.
 ///
 /// # Panics
 ///
-/// If the picture has not as many pixels as the reference.
+/// If the image has not as many pixels as the reference.
 pub fn mse(picture: &[[f64; 3]], truth: Truth<'_>) -> f64 {
     mean(&truth.pixel_errors(picture, |_| 1.0))
 }
@@ -57,7 +57,7 @@ pub fn relative_weight(reference: f64) -> f64 {
 ///
 /// # Panics
 ///
-/// If the picture has not as many pixels as the reference.
+/// If the image has not as many pixels as the reference.
 pub fn relative_mse(picture: &[[f64; 3]], truth: Truth<'_>) -> f64 {
     mean(&truth.pixel_errors(picture, relative_weight))
 }
@@ -68,7 +68,7 @@ pub fn relative_mse(picture: &[[f64; 3]], truth: Truth<'_>) -> f64 {
 ///
 /// # Panics
 ///
-/// If the picture has not as many pixels as the reference.
+/// If the image has not as many pixels as the reference.
 pub fn trimmed_relative_mse(picture: &[[f64; 3]], truth: Truth<'_>) -> f64 {
     let mut errors = truth.pixel_errors(picture, relative_weight);
     errors.sort_unstable_by(f64::total_cmp);

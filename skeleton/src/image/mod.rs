@@ -1,4 +1,4 @@
-//! Pictures: in memory, compared with others, in files (OpenEXR, PNG), and live in a viewer.
+//! Images: in memory, compared with others, in files (OpenEXR, PNG), and live in a viewer.
 
 use std::ops::{Index, IndexMut};
 
@@ -16,7 +16,7 @@ pub use save::{check_writable, write_aside};
 
 /// A rectangle of linear colours.
 ///
-/// What a value means (radiance, variance of its mean, …) is for the user of the picture to say.
+/// What a value means (radiance, variance of its mean, …) is for the user of the image to say.
 /// `image[(x, y)]` is column `x`, counted from the left, of row `y`, counted from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
@@ -26,12 +26,12 @@ pub struct Image {
 }
 
 impl Image {
-    /// A black picture.
+    /// A black image.
     pub fn new(width: usize, height: usize) -> Self {
         Self { width, height, pixels: vec![Rgb::BLACK; width * height] }
     }
 
-    /// A picture of pixels given row by row from the top, each row from the left.
+    /// An image of pixels given row by row from the top, each row from the left.
     ///
     /// # Panics
     ///
@@ -86,7 +86,7 @@ impl IndexMut<(usize, usize)> for Image {
 
 /// The names of the red, green and blue channel of a layer, as OpenEXR's convention and tev have them.
 ///
-/// The layer with the empty name is the picture that a viewer shows first: its channels are `R`, `G` and
+/// The layer with the empty name is the image that a viewer shows first: its channels are `R`, `G` and
 /// `B`. Those of the layer `variance` are `variance.R`, `variance.G` and `variance.B`.
 pub fn channel_names(layer: &str) -> [String; 3] {
     ["R", "G", "B"].map(|channel| match layer {

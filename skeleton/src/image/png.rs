@@ -1,4 +1,4 @@
-//! Pictures to look at: 8-bit sRGB in a PNG file.
+//! Images to look at: 8-bit sRGB in a PNG file.
 
 use std::path::Path;
 
@@ -6,20 +6,20 @@ use ::image::codecs::png::PngEncoder;
 use ::image::{ExtendedColorType, ImageEncoder};
 
 use super::{Image, write_aside};
+use crate::diagnostic::Diagnostic;
 use crate::math::Rgb;
-use crate::scene::Diagnostic;
 use crate::srgb::{exposure_factor, linear_to_srgb_u8};
 
 /// The colour of a pixel that is not a number, so that nobody takes it for a dark one: magenta.
 const NOT_A_NUMBER: [u8; 3] = [255, 0, 255];
 
-/// Writes a picture as PNG, brightened by `exposure` stops and cut off at the display's black and white.
+/// Writes an image as PNG, brightened by `exposure` stops and cut off at the display's black and white.
 ///
 /// A pixel with a NaN is magenta. An infinite channel is as bright as it can be.
 ///
 /// # Errors
 ///
-/// If the picture has no pixels or too many columns or rows for PNG, or as [`write_aside`]; an earlier
+/// If the image has no pixels or too many columns or rows for PNG, or as [`write_aside`]; an earlier
 /// file is kept then.
 pub fn write_png(path: &Path, image: &Image, exposure: f32) -> Result<(), Diagnostic> {
     let side = |length: usize| {
@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_without_pixels_is_an_error_and_the_earlier_file_stays() {
+    fn an_image_without_pixels_is_an_error_and_the_earlier_file_stays() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("picture.png");
         std::fs::write(&path, "earlier").expect("writing works");

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use tempfile::NamedTempFile;
 
-use crate::scene::Diagnostic;
+use crate::diagnostic::Diagnostic;
 
 /// Writes a file aside and moves it to `path` once it is complete.
 ///

@@ -1,4 +1,4 @@
-//! A picture that grows before one's eyes: live view in [tev](https://github.com/Tom94/tev).
+//! An image that grows before one's eyes: live view in [tev](https://github.com/Tom94/tev).
 
 use std::io;
 use std::net::{TcpStream, ToSocketAddrs};
@@ -17,7 +17,7 @@ const DEFAULT_PORT: u16 = 14158;
 /// How long to wait for the viewer to accept a connection, and then each time to take some data.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// Pixels are sent in bands of rows of about this many, so that a packet stays small and the picture
+/// Pixels are sent in bands of rows of about this many, so that a packet stays small and the image
 /// appears bit by bit.
 const PIXELS_PER_PACKET: usize = 1 << 18;
 
@@ -29,7 +29,7 @@ pub struct ViewerLost {
     reason: io::Error,
 }
 
-/// One picture in a running viewer.
+/// One image in a running viewer.
 #[derive(Debug)]
 pub struct LiveView {
     address: String,
@@ -39,7 +39,7 @@ pub struct LiveView {
 }
 
 impl LiveView {
-    /// Creates a black picture with the given layers (see [`channel_names`]) in the viewer at `address`,
+    /// Creates a black image with the given layers (see [`channel_names`]) in the viewer at `address`,
     /// which is `host:port` or a host alone.
     ///
     /// # Errors
@@ -70,7 +70,7 @@ impl LiveView {
         Ok(Self { address: address.to_owned(), picture_name, client: Some(client) })
     }
 
-    /// Shows `image`, which has the size of the picture, as one of its layers.
+    /// Shows `image`, which has the size of the image, as one of its layers.
     ///
     /// # Errors
     ///

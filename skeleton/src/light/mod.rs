@@ -1,20 +1,21 @@
 //! Light sources.
 //!
-//! A light is asked for a random point of itself ([`Light::sample_direct`]), and, when a path hits it by chance,
-//! for what it emits there ([`Light::emission`]). Densities of points are **per area** of the light; to compare
-//! them with those of directions is up to the caller.
+//! [`Light::sample_direct`] samples a random point on a light. When a path hits a light instead,
+//! [`Hit::emission`](crate::scene::Hit::emission) tells what it emits there. Densities of points are **per area** of
+//! the light; converting them to densities per solid angle is up to the caller.
 
 mod point;
-#[cfg(feature = "probe")]
+mod recorded;
 mod scripted;
 mod spot;
 mod triangle;
 
 use crate::math::{Rgb, Vec3};
+use crate::probe::{self, ScriptedLight};
 use crate::sampler::Sampler;
-use crate::scene::Hit;
 
 pub(crate) use point::PointLight;
+pub(crate) use recorded::emission as recorded_emission;
 pub(crate) use spot::SpotLight;
 pub(crate) use triangle::TriangleLight;
 
@@ -23,8 +24,8 @@ pub(crate) use triangle::TriangleLight;
 pub struct Light {
     index: usize,
     shape: Shape,
-    #[cfg(feature = "probe")]
-    script: Option<crate::probe::ScriptedLight>,
+    /// In the build of the grader's host only.
+    pub(crate) script: Option<ScriptedLight>,
 }
 
 #[derive(Clone, Debug)]
@@ -34,92 +35,89 @@ pub(crate) enum Shape {
     Triangle(TriangleLight),
 }
 
-/// A point of a light, as seen from some other point: the result of [`Light::sample_direct`].
+/// A random point on a light, as seen from a shading point: the result of [`Light::sample_direct`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DirectSample {
-    /// The point on the light, in world space.
+    /// The sampled point on the light, in world space.
     pub point: Vec3,
-    /// For a light with an area the radiance that it sends out, W·sr⁻¹·m⁻²; for one without the intensity towards
-    /// the asking point, W·sr⁻¹.
-    pub intensity: Rgb,
-    /// The density per area of the light with which the point was drawn, m⁻²; 1 for a light without an area.
+    /// What the light emits towards the shading point: for a light with an area its radiance, W·sr⁻¹·m⁻²; for one
+    /// without its intensity, W·sr⁻¹.
+    pub emitted: Rgb,
+    /// Density per area of the light with which `point` was sampled, m⁻²; 1 for a light without an area.
     pub pdf_area: f32,
-    /// The cosine between the light's normal and the direction to the asking point, in (0, 1]; 1 for a light
-    /// without an area.
-    pub cos: f32,
+    /// Cosine between the light's normal and the direction to the shading point, in (0, 1]; 1 for a light without an
+    /// area.
+    pub cos_light: f32,
 }
 
-/// What a light emits at a point that a path has hit: the result of [`Light::emission`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Emission {
-    /// The radiance sent to where the path came from, W·sr⁻¹·m⁻².
+/// What a light emits at a point that a path has hit: the result of [`Hit::emission`](crate::scene::Hit::emission).
+#[derive(Clone, Copy, Debug)]
+pub struct Emission<'a> {
+    /// The light that was hit.
+    pub light: &'a Light,
+    /// Radiance emitted towards the origin of the ray, W·sr⁻¹·m⁻².
     pub radiance: Rgb,
-    /// The density per area with which [`Light::sample_direct`] would have drawn this very point, m⁻².
+    /// Density per area with which [`Light::sample_direct`] samples the point that was hit, m⁻².
     pub pdf_area: f32,
-    /// The cosine between the light's normal and the direction to where the path came from, in (0, 1].
-    pub cos: f32,
+    /// Cosine between the light's normal and the direction to the origin of the ray, in (0, 1].
+    pub cos_light: f32,
 }
 
 impl Light {
     #[inline]
     pub(crate) fn new(index: usize, shape: Shape) -> Self {
-        Self {
-            index,
-            shape,
-            #[cfg(feature = "probe")]
-            script: None,
-        }
+        Self { index, shape, script: None }
     }
 
-    /// The same light in another place of the list.
+    /// The same light at another index.
     pub(crate) fn renumbered(self, index: usize) -> Self {
         Self { index, ..self }
     }
 
-    /// Draws a random point of this light, as seen from the point `from` (world space).
+    /// Samples a random point on this light, as seen from the shading point `from` (world space).
     ///
-    /// `None` if no light goes from there to `from`: behind the light, in its plane, outside of its cone, at no
-    /// distance. Then this sample contributes nothing. Whether anything stands between is not looked at:
-    /// see [`Scene::occluded`](crate::scene::Scene::occluded).
+    /// `None` if the light emits nothing from there towards `from`: the shading point is behind the light, in its
+    /// plane, outside its cone, or at distance 0. Such a sample contributes nothing. Visibility is not tested: see
+    /// [`Scene::occluded`](crate::scene::Scene::occluded).
     #[inline]
     pub fn sample_direct(&self, from: Vec3, sampler: &mut Sampler) -> Option<DirectSample> {
-        let sample = |sampler: &mut Sampler| match &self.shape {
-            Shape::Point(light) => light.sample_direct(from),
-            Shape::Spot(light) => light.sample_direct(from),
-            Shape::Triangle(light) => light.sample_direct(from, sampler),
+        probe::count_light_sample();
+        let sample = match (&self.shape, &self.script) {
+            (Shape::Point(light), _) => light.sample_direct(from),
+            (Shape::Spot(light), _) => light.sample_direct(from),
+            (Shape::Triangle(light), None) => light.sample_direct(from, sampler),
+            (Shape::Triangle(light), Some(script)) => script.sample_direct(light, from),
         };
-        #[cfg(feature = "probe")]
-        let sample = |sampler: &mut Sampler| self.probe_sample(from, || sample(sampler));
-        sample(sampler)
+        probe::record(|| recorded::sample_direct(self, from, sample));
+        sample
     }
 
-    /// What this light emits at `hit` towards the viewer, `hit.wo`.
-    ///
-    /// To be called with a hit that [`Hit::light`] says is on this light; only lights with an area are ever hit.
+    /// What this light emits towards the unit direction `wo`, which lies on its front. `None` for a light without an
+    /// area, which no path ever hits.
     #[inline]
-    pub fn emission(&self, hit: &Hit<'_>) -> Emission {
-        let emission = match &self.shape {
-            Shape::Point(_) | Shape::Spot(_) => Emission { radiance: Rgb::BLACK, pdf_area: 1.0, cos: 1.0 },
-            Shape::Triangle(light) => light.emission(hit.wo),
-        };
-        #[cfg(feature = "probe")]
-        let emission = self.probe_emission(hit, emission);
-        emission
+    pub(crate) fn emission(&self, wo: Vec3) -> Option<Emission<'_>> {
+        let Shape::Triangle(light) = &self.shape else { return None };
+        Some(Emission {
+            light: self,
+            radiance: light.radiance,
+            pdf_area: self.script.map_or(light.pdf_area(), |script| script.pdf_area()),
+            cos_light: light.cos_towards(wo),
+        })
     }
 
-    /// True if the light has a surface, so that a path can hit it by chance.
+    /// True if the light has an area, so that a path can hit it.
     #[inline]
     pub fn has_area(&self) -> bool {
         matches!(self.shape, Shape::Triangle(_))
     }
 
-    /// Its place in [`Scene::lights`](crate::scene::Scene::lights).
+    /// The index of this light in [`Scene::lights`](crate::scene::Scene::lights).
     #[inline]
     pub fn index(&self) -> usize {
         self.index
     }
 
-    /// The luminance of its total power Φ, in watts. For a triangle Φ = π · area · radiance.
+    /// Luminance of the total emitted power Φ, in watts. For a triangle Φ = π · area · radiance.
     #[inline]
     pub fn power(&self) -> f32 {
         match &self.shape {

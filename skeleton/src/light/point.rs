@@ -1,4 +1,4 @@
-//! A point that sends the same intensity in all directions.
+//! A point light: the same intensity in all directions.
 
 use std::f32::consts::PI;
 
@@ -19,12 +19,12 @@ impl PointLight {
 
     #[inline]
     pub(super) fn sample_direct(&self, from: Vec3) -> Option<DirectSample> {
-        // From the very place of the light there is no direction to it.
+        // At the position of the light there is no direction to it.
         (from != self.position).then_some(DirectSample {
             point: self.position,
-            intensity: self.intensity,
+            emitted: self.intensity,
             pdf_area: 1.0,
-            cos: 1.0,
+            cos_light: 1.0,
         })
     }
 

@@ -1,17 +1,17 @@
-//! A point that sends light into a cone only.
+//! A spot light: a point light limited to a cone.
 
 use std::f32::consts::TAU;
 
 use super::DirectSample;
-use crate::math::{Rgb, Vec3, direction};
+use crate::math::{Rgb, Vec3, direction_and_distance};
 
-/// Intensity I₀ up to the inner angle, none from the outer angle on, and between them I₀ · s(t), with t running
-/// from 0 to 1 as the **cosine** goes from outer to inner, and s(t) = t² (3 − 2t).
+/// Intensity I₀ within the inner angle, 0 beyond the outer angle, and I₀ · s(t) in between, where t goes from 0 to 1 as the
+/// **cosine** goes from outer to inner, and s(t) = t² (3 − 2t).
 #[derive(Clone, Debug)]
 pub(crate) struct SpotLight {
     position: Vec3,
     axis: Vec3,
-    /// 1 − cos of the inner angle. In a narrow cone the cosine is 1 but for its last bits; this is not.
+    /// 1 − cos of the inner angle; more precise than the cosine in a narrow cone.
     inner: f32,
     /// 1 − cos of the outer angle.
     outer: f32,
@@ -19,10 +19,10 @@ pub(crate) struct SpotLight {
 }
 
 impl SpotLight {
-    /// Angles from the axis in degrees. The intensity follows from the power: over the cone's solid angle s has
-    /// the mean ½, so that Φ = 2π I₀ (1 − (cos inner + cos outer) / 2).
+    /// Angles are measured from the axis, in degrees. The intensity follows from the power: s has the mean ½ between the two
+    /// cones, so that Φ = 2π I₀ (1 − (cos inner + cos outer) / 2).
     pub(crate) fn new(position: Vec3, axis: Vec3, inner: f32, outer: f32, power: Rgb) -> Self {
-        let axis = direction(Vec3::ZERO, axis).0;
+        let axis = direction_and_distance(Vec3::ZERO, axis).0;
         // 1 − cos x = 2 sin² (x / 2)
         let one_minus_cos = |degrees: f32| 2.0 * (0.5 * degrees).to_radians().sin().powi(2);
         let (inner, outer) = (one_minus_cos(inner), one_minus_cos(outer));
@@ -31,24 +31,24 @@ impl SpotLight {
         light
     }
 
-    /// The solid angle that full intensity would need for the same power.
+    /// The solid angle that has the same power at full intensity.
     fn solid_angle(&self) -> f32 {
         TAU * 0.5 * (self.inner + self.outer)
     }
 
     #[inline]
     pub(super) fn sample_direct(&self, from: Vec3) -> Option<DirectSample> {
-        let (w, distance) = direction(self.position, from);
+        let (w, distance) = direction_and_distance(self.position, from);
         if distance == 0.0 {
-            return None; // the light itself asks: no direction, no way
+            return None; // at the position of the light there is no direction to it
         }
-        // The squared distance of two unit vectors is 2 (1 − cos), exact where they almost agree.
+        // The squared distance of two unit vectors is 2 (1 − cos), accurate for small angles.
         let intensity = self.intensity * self.falloff(0.5 * (w - self.axis).length_squared());
         (!intensity.is_black()).then_some(DirectSample {
             point: self.position,
-            intensity,
+            emitted: intensity,
             pdf_area: 1.0,
-            cos: 1.0,
+            cos_light: 1.0,
         })
     }
 

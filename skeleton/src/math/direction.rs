@@ -1,13 +1,13 @@
-//! Directions: from one point to another, mirrored, refracted.
+//! Directions: between points, reflected, refracted.
 
 use glam::Vec3;
 
-/// The unit direction from one point to another, and their distance in scene units.
+/// The unit vector from one point to another and their distance, in scene units.
 ///
-/// Between equal points there is no direction: the result is then (0, 0, 0) and 0. The squares are taken after
-/// scaling by the largest coordinate, so that no distance that `f32` can hold over- or underflows on the way.
+/// For equal points the result is (0, 0, 0) and 0. Very large or small differences are scaled before they are squared, so
+/// that no distance representable in `f32` overflows or underflows.
 #[inline]
-pub fn direction(from: Vec3, to: Vec3) -> (Vec3, f32) {
+pub fn direction_and_distance(from: Vec3, to: Vec3) -> (Vec3, f32) {
     let difference = to - from;
     let squared = difference.length_squared();
     if squared > 1e-30 && squared < 1e30 {
@@ -28,23 +28,20 @@ fn scaled_direction(difference: Vec3) -> (Vec3, f32) {
     (scaled / length, scale * length)
 }
 
-/// `w` mirrored about the unit vector `normal`: both point away from the surface, and so does the result.
-///
-/// r = 2 (n·w) n − w
+/// The reflection of `w` about the unit vector `normal`: r = 2 (n·w) n − w. All vectors point away from the surface.
 #[inline]
 pub fn reflect(w: Vec3, normal: Vec3) -> Vec3 {
     2.0 * normal.dot(w) * normal - w
 }
 
-/// The direction into which light from `w` is refracted, with the cosine between it and −`normal`; `None` if all
-/// of it is reflected.
+/// The refraction of `w` and its cosine to −`normal`; `None` for total internal reflection.
 ///
-/// `w` and `normal` are unit vectors on the same side; `ratio` is the index of refraction on that side divided by
-/// the one on the other side. By Snell's law, sin θ_t = ratio · sin θ.
+/// `w` and `normal` are unit vectors on the same side; `ratio` is the index of refraction on that side divided by the one
+/// on the other side. Snell's law: sin θ_t = ratio · sin θ.
 #[inline]
 pub fn refract(w: Vec3, normal: Vec3, ratio: f32) -> Option<(Vec3, f32)> {
     let cos = normal.dot(w).clamp(0.0, 1.0);
-    // sin² as (1 − cos)(1 + cos): exact where the light comes in almost along the normal.
+    // sin² as (1 − cos)(1 + cos): accurate near normal incidence.
     let sin2_t = ratio * ratio * (1.0 - cos) * (1.0 + cos);
     if sin2_t >= 1.0 {
         return None;
@@ -59,10 +56,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn direction_and_distance_hold_over_the_whole_range_of_f32() {
+    fn direction_and_distance_are_accurate_over_the_whole_range_of_f32() {
         for exponent in -36..=37 {
             let length = 10f32.powi(exponent);
-            let (wi, distance) = direction(Vec3::ZERO, length * Vec3::new(2.0, -1.0, 2.0));
+            let (wi, distance) = direction_and_distance(Vec3::ZERO, length * Vec3::new(2.0, -1.0, 2.0));
             assert!((wi - Vec3::new(2.0, -1.0, 2.0) / 3.0).length() < 1e-6, "1e{exponent}: {wi}");
             assert!((distance / (3.0 * length) - 1.0).abs() < 1e-6, "1e{exponent}: {distance}");
         }
@@ -70,22 +67,22 @@ mod tests {
 
     #[test]
     fn equal_points_have_no_direction() {
-        assert_eq!(direction(Vec3::ONE, Vec3::ONE), (Vec3::ZERO, 0.0));
+        assert_eq!(direction_and_distance(Vec3::ONE, Vec3::ONE), (Vec3::ZERO, 0.0));
     }
 
     #[test]
-    fn refraction_obeys_snell_and_inverts_itself() {
+    fn refraction_obeys_snells_law_and_is_reversible() {
         let normal = Vec3::Z;
         for step in 0..100 {
             let theta = step as f32 / 100.0 * std::f32::consts::FRAC_PI_2;
             let w = Vec3::new(theta.sin(), 0.0, theta.cos());
             let (wt, cos_t) =
-                refract(w, normal, 1.0 / 1.5).expect("light enters the denser side at any angle");
+                refract(w, normal, 1.0 / 1.5).expect("no total internal reflection on the thinner side");
             assert!((wt.length() - 1.0).abs() < 1e-6 && (cos_t + wt.z).abs() < 1e-6);
-            assert!((1.5 * -wt.x - w.x).abs() < 1e-6, "n sin θ is kept");
-            // Near the critical angle the inverse is ill-conditioned: stay clear of it.
+            assert!((1.5 * -wt.x - w.x).abs() < 1e-6, "n sin θ is invariant");
+            // Near the critical angle the inverse is ill-conditioned.
             if theta < 1.5 {
-                let (back, _) = refract(wt, -normal, 1.5).expect("the way back exists");
+                let (back, _) = refract(wt, -normal, 1.5).expect("refraction is reversible");
                 assert!((back - w).length() < 1e-4, "{back} {w}");
             }
         }

@@ -1,8 +1,8 @@
-//! Local coordinates around a direction.
+//! Local coordinate frames.
 
 use glam::Vec3;
 
-/// A right-handed orthonormal basis whose third axis is a given direction.
+/// A right-handed orthonormal basis whose third axis is a given unit vector.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
     tangent: Vec3,
@@ -11,7 +11,7 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// A frame around the unit vector `axis`; the other two axes are arbitrary, but the same for the same `axis`.
+    /// A frame with the unit vector `axis` as its third axis. The other two are arbitrary but deterministic.
     ///
     /// Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
     #[inline]
@@ -26,7 +26,7 @@ impl Frame {
         }
     }
 
-    /// From local coordinates, in which the axis is (0, 0, 1), to world space.
+    /// Transforms a vector from local coordinates, where the axis is (0, 0, 1), to world space.
     #[inline]
     pub fn to_world(self, local: Vec3) -> Vec3 {
         local.x * self.tangent + local.y * self.bitangent + local.z * self.axis

@@ -1,4 +1,4 @@
-//! Numbers, colours, directions, and the maps from random numbers to them.
+//! Colours, vectors, directions, and sampling routines.
 
 mod direction;
 mod frame;
@@ -6,7 +6,7 @@ mod rgb;
 mod trigonometry;
 pub mod warp;
 
-pub use direction::{direction, reflect, refract};
+pub use direction::{direction_and_distance, reflect, refract};
 pub use frame::Frame;
 pub use glam::{Vec2, Vec3};
 pub use rgb::Rgb;

@@ -1,13 +1,13 @@
-//! Linear RGB: radiance, intensity, reflectance, throughput.
+//! Linear RGB values: radiance, intensity, reflectance, throughput.
 
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use serde::{Deserialize, Serialize};
 
-/// Three linear values (primaries and white point of Rec. 709 / sRGB, without its transfer curve).
+/// A linear RGB value with the primaries and white point of Rec. 709 (sRGB without its transfer curve).
 ///
-/// The unit depends on the use: radiance is W·sr⁻¹·m⁻², reflectance and throughput have none.
-/// Products are taken channel by channel.
+/// The unit depends on the quantity: radiance is W·sr⁻¹·m⁻², reflectance and throughput have none. Products are
+/// per channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rgb {
     /// Red.
@@ -19,7 +19,7 @@ pub struct Rgb {
 }
 
 impl Rgb {
-    /// No light at all.
+    /// Zero in each channel.
     pub const BLACK: Self = Self::gray(0.0);
     /// One in each channel.
     pub const WHITE: Self = Self::gray(1.0);
@@ -54,13 +54,13 @@ impl Rgb {
         0.2126 * self.r + 0.7152 * self.g + 0.0722 * self.b
     }
 
-    /// True if every channel is zero: nothing to add, nothing to trace a ray for.
+    /// True if all channels are zero.
     #[inline]
     pub fn is_black(self) -> bool {
         self.r == 0.0 && self.g == 0.0 && self.b == 0.0
     }
 
-    /// True if no channel is infinite or NaN.
+    /// True if no channel is NaN or infinite.
     #[inline]
     pub fn is_finite(self) -> bool {
         self.r.is_finite() && self.g.is_finite() && self.b.is_finite()

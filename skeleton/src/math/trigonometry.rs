@@ -1,10 +1,9 @@
 //! Sine and cosine on a short interval.
 
-/// (sin x, cos x) for |x| ≤ π/4, to 1.2e-7.
+/// (sin x, cos x) for |x| ≤ π/4, with an absolute error below 1.2e-7.
 ///
-/// Minimax polynomials of the Cephes library (S. Moshier). The sampling routines need no other range, and need
-/// it often: this takes a few nanoseconds and gives the same bits on every machine, which the system's
-/// mathematical library does not.
+/// Minimax polynomials of the Cephes library (S. Moshier). The sampling routines need no other range, and call this often:
+/// it takes a few nanoseconds and, unlike the system's math library, gives the same bits on every machine.
 #[inline]
 pub(super) fn sin_cos_eighth_turn(x: f32) -> (f32, f32) {
     let z = x * x;

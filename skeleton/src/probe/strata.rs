@@ -30,7 +30,7 @@ pub fn set_strata(_: &Key, strata: Option<Strata>) {
 
 /// Puts an own number into its stratum.
 #[inline]
-pub(crate) fn place(number: f32) -> f32 {
+pub(crate) fn stratified(number: f32) -> f32 {
     let Some((strata, taken)) = STRATA.get() else { return number };
     STRATA.set(Some((strata, taken + 1)));
     strata.place(taken, number)
@@ -86,8 +86,8 @@ mod tests {
             assert!((0.0..1.0).contains(&number), "{number}");
         }
         set_strata(&Key(()), Some(strata));
-        assert_ne!(place(0.5), 0.5);
+        assert_ne!(stratified(0.5), 0.5);
         set_strata(&Key(()), None);
-        assert_eq!(place(0.5), 0.5);
+        assert_eq!(stratified(0.5), 0.5);
     }
 }

@@ -1,4 +1,4 @@
-//! From a description to a scene.
+//! Building a scene from its description.
 
 use super::closed::encloses;
 use super::{
@@ -8,12 +8,13 @@ use super::{
 use crate::accel::Accel;
 use crate::light::{Light, PointLight, Shape, SpotLight, TriangleLight};
 use crate::math::{Rgb, Vec3};
+use crate::probe::Switches;
 
 impl Scene {
-    /// Builds everything that rays need: the hierarchy, the lights, the features.
+    /// Builds the acceleration structure and the lights.
     ///
-    /// Emissive triangles of meshes become lights after those that the description lists, in the order of the
-    /// meshes. Triangles without an area are left out, with a warning.
+    /// Emissive triangles of meshes become lights after those of the description, in the order of the meshes. Triangles
+    /// without an area are ignored, with a warning.
     pub fn new(description: &SceneDescription) -> Self {
         let mut builder = Builder::default();
         for light in &description.lights {
@@ -22,9 +23,8 @@ impl Scene {
         builder.surfaces.extend(description.materials.iter().map(|material| Surface {
             diffuse: material.diffuse,
             diffuse_map: material.diffuse_map,
-            // A lobe that reflects nothing would only take samples away from the other one.
+            // A black lobe would only waste samples.
             specular: if material.specular.is_black() { Specular::None } else { material.specular },
-            #[cfg(feature = "probe")]
             script: None,
         }));
         for mesh in &description.meshes {
@@ -42,7 +42,7 @@ struct Builder {
     attributes: Vec<Attributes>,
     surfaces: Vec<Surface>,
     lights: Vec<Light>,
-    /// Materials follow the one surface that all triangle lights share.
+    /// Index of the first material: after the surface shared by all triangle lights, if there are any.
     first_material: u32,
     degenerate: usize,
 }
@@ -68,7 +68,6 @@ impl Builder {
                         diffuse: Rgb::BLACK,
                         diffuse_map: None,
                         specular: Specular::None,
-                        #[cfg(feature = "probe")]
                         script: None,
                     });
                     self.first_material = 1;
@@ -101,7 +100,7 @@ impl Builder {
             return;
         };
         let normals = triangle.normals.map(|indices| indices.map(|index| mesh.normals[index as usize]));
-        // Texture coordinates are kept only where there is a texture to look up.
+        // Texture coordinates are needed for textures only.
         let uvs = triangle.uvs.filter(|_| material.diffuse_map.is_some());
         let uvs = uvs.map(|indices| indices.map(|index| mesh.uvs[index as usize]));
         let attributes = if normals.is_some() || uvs.is_some() {
@@ -128,13 +127,13 @@ impl Builder {
         let features = self.features(&accel, closed);
         let mut warnings = Vec::new();
         if self.degenerate > 0 {
-            warnings.push(format!("{} triangles without an area were left out", self.degenerate));
+            warnings.push(format!("triangles without an area are ignored: {}", self.degenerate));
         }
         warnings.extend(precision_warning(&corners));
         let duplicates = accel.stats().duplicates;
         if duplicates > 0 {
             warnings.push(format!(
-                "{duplicates} triangles stand exactly where another one does; the first counts"
+                "triangles with the same three vertices as an earlier one are ignored: {duplicates}"
             ));
         }
         Scene {
@@ -148,13 +147,13 @@ impl Builder {
             defaults: description.defaults,
             features,
             warnings,
-            #[cfg(feature = "probe")]
-            switches: Default::default(),
+            switches: Switches::ALL,
         }
     }
 
-    /// Of triangles in the same place rays can hit only the first. A later one that is a light becomes the back of
-    /// the first if it faces the other way; else it is no light, or light samples would find what no ray can hit.
+    /// Rays hit only the first of several duplicate triangles. A later one that is a light becomes the back of the first if
+    /// it has the opposite orientation. Otherwise it is removed from the lights, or light samples would find a light that no
+    /// ray can hit.
     fn settle_duplicates(&mut self, duplicates: &[[u32; 2]]) {
         let mut dropped = vec![false; self.lights.len()];
         for &[later, first] in duplicates {
@@ -193,7 +192,7 @@ impl Builder {
         }
     }
 
-    /// What light does not pass; it gets lost through glass as through a hole.
+    /// All triangles except those of glass, through which paths can leave.
     fn opaque(&self) -> Vec<[Vec3; 3]> {
         let is_glass = |triangle: &Triangle| {
             matches!(self.surfaces[triangle.surface as usize].specular, Specular::Glass { .. })
@@ -231,26 +230,28 @@ impl Builder {
     }
 }
 
-/// The unit normal of the side from which the vertices run counter-clockwise; `None` without an area.
+/// The unit normal of the side from which the vertices are counter-clockwise; `None` for a triangle without an area.
 fn front_normal([a, b, c]: [Vec3; 3]) -> Option<Vec3> {
     let (a, b, c) = (a.as_dvec3(), b.as_dvec3(), c.as_dvec3());
     (b - a).cross(c - a).try_normalize().map(|normal| normal.as_vec3())
 }
 
-/// Says so if the scene is beyond the sizes and offsets for which the tests of `accel` show that rays neither leak
-/// nor hit the surface that they leave.
+/// A warning if the scene is outside the range of sizes and offsets for which the tests of `accel` show that rays neither
+/// leak nor hit the surface they start on.
 fn precision_warning(corners: &[[Vec3; 3]]) -> Option<String> {
     let vertices = corners.as_flattened();
-    let least = vertices.iter().copied().reduce(Vec3::min)?.as_dvec3();
-    let greatest = vertices.iter().copied().reduce(Vec3::max)?.as_dvec3();
-    let size = (greatest - least).length();
-    let offset = (0.5 * (greatest + least)).length();
+    let min = vertices.iter().copied().reduce(Vec3::min)?.as_dvec3();
+    let max = vertices.iter().copied().reduce(Vec3::max)?.as_dvec3();
+    let size = (max - min).length();
+    let offset = (0.5 * (max + min)).length();
     if !(1e-4..=1e5).contains(&size) {
-        return Some(format!("the scene is {size:.1e} units large; rays are reliable from 1e-4 to 1e5"));
+        return Some(format!(
+            "the scene has a size of {size:.1e} units; intersections are reliable from 1e-4 to 1e5"
+        ));
     }
     (offset > 1e3 * size).then(|| {
         format!(
-            "the scene lies {:.1e} times its size from the origin; rays are reliable up to 1e3",
+            "the scene is {:.1e} times its size away from the origin; intersections are reliable up to 1e3",
             offset / size
         )
     })

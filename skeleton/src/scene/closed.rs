@@ -1,25 +1,24 @@
-//! Is the camera enclosed?
+//! Tests whether closed surfaces enclose the camera.
 
 use glam::DVec3;
 use rayon::slice::ParallelSliceMut;
 
-use crate::firsts::firsts;
+use crate::dedup::dedup;
 use crate::math::Vec3;
 
-/// True if `eye` lies inside a surface without a hole.
+/// True if `eye` is inside a closed surface.
 ///
-/// Triangles that share an edge belong together. A set of them has no hole if each of its edges belongs to an even
-/// number of its triangles; such a set encloses the eye if a line from the eye to infinity crosses it an odd number
-/// of times. That needs no triangle to know its front from its back, and triangles that stand there twice cancel.
-/// Surfaces that only touch without sharing vertices count as open, so that "closed" can be relied on and "open"
-/// cannot.
+/// Triangles that share an edge form a surface. It is closed if each of its edges belongs to an even number of its
+/// triangles, and encloses the eye if a ray from the eye crosses it an odd number of times. Orientation does not matter, and
+/// duplicate triangles cancel. Surfaces that touch without sharing vertices count as open: "closed" is reliable, "open" is
+/// not.
 pub(super) fn encloses(triangles: &[[Vec3; 3]], eye: Vec3) -> bool {
     let corners = || triangles.as_flattened().iter().copied();
-    let (Some(least), Some(greatest)) = (corners().reduce(Vec3::min), corners().reduce(Vec3::max)) else {
+    let (Some(min), Some(max)) = (corners().reduce(Vec3::min), corners().reduce(Vec3::max)) else {
         return false;
     };
-    // Most eyes that are not enclosed are not even within the box around everything, which takes no search to see.
-    if eye.cmplt(least).any() || eye.cmpgt(greatest).any() {
+    // A quick test: most eyes that are not enclosed are outside the bounding box.
+    if eye.cmplt(min).any() || eye.cmpgt(max).any() {
         return false;
     }
     let mut sets = DisjointSets::new(triangles.len());
@@ -36,7 +35,7 @@ pub(super) fn encloses(triangles: &[[Vec3; 3]], eye: Vec3) -> bool {
     for triangle in alone {
         open[sets.find(triangle) as usize] = true;
     }
-    // In each set, for each direction, whether it is crossed an odd number of times.
+    // For each surface and direction, whether the number of crossings is odd.
     let mut odd = vec![[false; DIRECTIONS.len()]; triangles.len()];
     for (index, vertices) in triangles.iter().enumerate() {
         let set = sets.find(index as u32) as usize;
@@ -50,28 +49,28 @@ pub(super) fn encloses(triangles: &[[Vec3; 3]], eye: Vec3) -> bool {
     odd.contains(&[true; DIRECTIONS.len()])
 }
 
-/// Directions with no simple ratios, so that no diagonal of a box lies along them. One would do, the others guard
-/// against chance. Their lengths do not matter.
+/// Directions without simple ratios, so that they are not parallel to diagonals of boxes. One would do; the others guard
+/// against coincidences. Their lengths do not matter.
 const DIRECTIONS: [DVec3; 3] = [
     DVec3::new(0.567_143_290_4, 0.739_085_133_2, 0.261_497_212_8),
     DVec3::new(-0.618_033_988_7, 0.141_592_653_5, 0.773_239_104_1),
     DVec3::new(0.271_828_182_8, -0.577_215_664_9, -0.763_932_022_5),
 ];
 
-/// True if the half-line from the origin crosses the triangle.
+/// True if the ray from the origin crosses the triangle.
 fn crosses([a, b, c]: [DVec3; 3], direction: DVec3) -> bool {
-    // On which side of each edge the line passes. Both triangles at an edge work out the same bits, up to the sign,
-    // so that none slips between them.
+    // The side of each edge on which the ray passes. Both triangles at an edge compute the same bits up to the sign, so no
+    // ray slips between them.
     let sides = [(a, b), (b, c), (c, a)].map(|(from, to)| direction.dot(from.cross(to)));
     let inside = sides.iter().all(|side| *side > 0.0) || sides.iter().all(|side| *side < 0.0);
     inside && (a.dot(b.cross(c)) > 0.0) == (sides[0] > 0.0)
 }
 
-/// Each triangle's edges, by the numbers of their ends, with the triangle; equal ones next to each other.
+/// The edges of all triangles, as pairs of vertex numbers with the index of the triangle, sorted.
 fn edges(triangles: &[[Vec3; 3]]) -> Vec<([u32; 2], u32)> {
     let corners = triangles.as_flattened();
-    // Adding zero makes -0 into 0.
-    let numbers = firsts(corners.len(), |corner| (corners[corner] + Vec3::ZERO).to_array().map(f32::to_bits));
+    // Adding zero turns -0 into 0.
+    let numbers = dedup(corners.len(), |corner| (corners[corner] + Vec3::ZERO).to_array().map(f32::to_bits));
     let mut edges = Vec::with_capacity(numbers.len());
     for (index, &[a, b, c]) in numbers.as_chunks().0.iter().enumerate() {
         for mut edge in [[a, b], [b, c], [c, a]] {
@@ -83,7 +82,7 @@ fn edges(triangles: &[[Vec3; 3]]) -> Vec<([u32; 2], u32)> {
     edges
 }
 
-/// Sets of triangles that grow together (union–find with path halving).
+/// Connected sets of triangles (union–find with path halving).
 struct DisjointSets {
     parent: Vec<u32>,
 }
@@ -127,7 +126,7 @@ mod tests {
     const INSIDE: Vec3 = Vec3::new(0.1, -0.2, 0.3);
 
     #[test]
-    fn a_cube_encloses_what_is_in_it_and_nothing_else() {
+    fn a_cube_encloses_its_interior_only() {
         assert!(encloses(&cube(), INSIDE));
         assert!(encloses(&cube(), Vec3::splat(0.999)));
         for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
@@ -136,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn one_triangle_less_is_a_hole() {
+    fn a_missing_triangle_opens_the_surface() {
         for left_out in 0..12 {
             let mut cube = cube();
             cube.remove(left_out);
@@ -145,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn the_order_of_vertices_does_not_matter() {
+    fn the_orientation_of_triangles_does_not_matter() {
         for turned in 0..1 << 12 {
             let mut cube = cube();
             for (index, triangle) in cube.iter_mut().enumerate() {
@@ -154,13 +153,13 @@ mod tests {
                 }
             }
             assert!(encloses(&cube, INSIDE));
-            // Seen from just outside a face, solid angles with signs would add up to a whole sphere.
+            // From just outside a face, signed solid angles would add up to a full sphere.
             assert!(!encloses(&cube, Vec3::new(0.0, 0.0, 1.01)));
         }
     }
 
     #[test]
-    fn a_sheet_that_stands_there_twice_encloses_nothing() {
+    fn a_duplicated_sheet_encloses_nothing() {
         let sheet = [[Vec3::ZERO, Vec3::X, Vec3::Y], [Vec3::X, Vec3::ONE.with_z(0.0), Vec3::Y]];
         let twice = [sheet, sheet].concat();
         assert!(

@@ -1,45 +1,32 @@
-//! What a scene is made of, as read: plain data, with nothing worked out yet.
+//! Scene descriptions: plain data as read from files.
 //!
-//! A description has everything that [`Scene`](super::Scene) is built from, and nothing else. It can be sent
-//! to another process, and its [hash](SceneDescription::hash) says whether two scenes are the same, however
-//! their files were written.
+//! A description contains everything that a [`Scene`](super::Scene) is built from. It can be sent to another process, and
+//! its [hash](SceneDescription::hash) identifies the scene independently of how its files are written.
 
 use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
+use crate::camera::CameraDescription;
 use crate::math::Rgb;
 
-/// A whole scene as data. Lengths are in scene units, positions in world space.
+/// A scene as data. Lengths are in scene units, positions in world space.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SceneDescription {
-    /// Where the picture is taken from.
+    /// The camera.
     pub camera: CameraDescription,
-    /// All surfaces, but for those of triangle lights.
+    /// All surfaces except triangle lights.
     pub meshes: Vec<Mesh>,
-    /// What [`MeshTriangle::material`] refers to.
+    /// Materials, referred to by [`MeshTriangle::material`].
     pub materials: Vec<Material>,
-    /// What [`Material::diffuse_map`] refers to.
+    /// Textures, referred to by [`Material::diffuse_map`].
     pub textures: Vec<Texture>,
-    /// Lights given by themselves. Emissive materials make more of them.
+    /// Explicit lights. Triangles with an emissive material are lights, too.
     pub lights: Vec<LightDescription>,
-    /// How the scene wants to be rendered unless told otherwise.
+    /// Default render settings.
     pub defaults: Defaults,
 }
 
-/// A perspective camera.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CameraDescription {
-    /// The pinhole.
-    pub eye: Vec3,
-    /// The point that is shown in the middle of the image.
-    pub center: Vec3,
-    /// The direction that is shown upwards; need not be a unit vector nor perpendicular to the view.
-    pub up: Vec3,
-    /// The angle that the image spans from its left to its right edge, in degrees.
-    pub fov: f32,
-}
-
-/// Triangles that share their lists of vertices.
+/// Triangles with shared vertex data.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Mesh {
     /// Vertex positions, already in world space.
@@ -57,59 +44,59 @@ pub struct Mesh {
 pub struct MeshTriangle {
     /// Indices into [`Mesh::positions`].
     pub positions: [u32; 3],
-    /// Indices into [`Mesh::normals`]; without them the triangle is shaded flat.
+    /// Indices into [`Mesh::normals`]; `None` for flat shading.
     pub normals: Option<[u32; 3]>,
-    /// Indices into [`Mesh::uvs`].
+    /// Indices into [`Mesh::uvs`]; `None` without texture coordinates.
     pub uvs: Option<[u32; 3]>,
     /// Index into [`SceneDescription::materials`].
     pub material: u32,
 }
 
-/// What a surface does with light.
+/// A material.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Material {
-    /// Its name in the file, for messages.
+    /// The name in the file, for messages.
     pub name: String,
-    /// Diffuse reflectance (Kd), in [0, 1]; multiplied with the map if there is one.
+    /// Diffuse albedo (Kd), in [0, 1]; multiplied by the texture if there is one.
     pub diffuse: Rgb,
     /// Index into [`SceneDescription::textures`] (map_Kd).
     pub diffuse_map: Option<u32>,
-    /// What is reflected or let through beside the diffuse part.
+    /// The specular lobe.
     pub specular: Specular,
     /// Radiance emitted from the front (Ke); black for all but lights.
     pub emission: Rgb,
 }
 
-/// The part of a material that is not diffuse.
+/// The specular lobe of a material.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Specular {
-    /// The material is diffuse only.
+    /// None: the material is purely diffuse.
     None,
     /// Modified Phong lobe.
     Phong {
-        /// Share of the light that the lobe reflects at most (Ks).
+        /// Maximum fraction of light reflected by the lobe (Ks).
         reflectance: Rgb,
-        /// Exponent n of the cosine (Ns); the greater, the narrower.
+        /// Exponent n of the cosine (Ns); larger values give narrower lobes.
         exponent: f32,
     },
     /// A perfect mirror (illum 3 and 5).
     Mirror {
-        /// Share of the light that is reflected (Ks).
+        /// Fraction of light reflected (Ks).
         reflectance: Rgb,
     },
     /// Smooth glass (illum 7 and 4, 6, 9).
     Glass {
-        /// Index of refraction behind the front, relative to that before it (Ni).
+        /// Index of refraction inside, relative to that outside, where the front is (Ni).
         index: f32,
-        /// Factor on what is reflected (Ks).
+        /// Factor on reflected light (Ks).
         reflectance: Rgb,
-        /// Factor on what is let through (Tf).
+        /// Factor on transmitted light (Tf).
         transmittance: Rgb,
     },
 }
 
 impl Specular {
-    /// True if it neither reflects nor lets through any light.
+    /// True if it neither reflects nor transmits light.
     pub(crate) fn is_black(&self) -> bool {
         match self {
             Self::None => true,
@@ -121,62 +108,62 @@ impl Specular {
     }
 }
 
-/// An 8-bit image wrapped over a surface, repeating in both directions.
+/// An 8-bit image that is repeated in both directions.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Texture {
     /// Columns; at least 1.
     pub width: u32,
     /// Rows; at least 1.
     pub height: u32,
-    /// Values with the sRGB transfer curve, row by row from the top, `width · height` of them.
+    /// sRGB values, row by row from the top; `width · height` texels.
     pub texels: Vec<[u8; 3]>,
 }
 
-/// A light that is given by itself.
+/// An explicit light.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum LightDescription {
-    /// Sends the same intensity in every direction.
+    /// A point light: constant intensity in all directions.
     Point {
-        /// Where it is.
+        /// The position.
         position: Vec3,
         /// Total power Φ in watts, per channel.
         power: Rgb,
     },
-    /// Sends light into a cone only.
+    /// A spot light: a point light limited to a cone.
     Spot {
         /// The apex of the cone.
         position: Vec3,
         /// The axis of the cone; any length but zero.
         direction: Vec3,
-        /// Angle from the axis up to which the intensity is constant, in degrees.
+        /// Angle from the axis within which the intensity is constant, in degrees.
         inner: f32,
-        /// Angle from the axis from which on it is zero, in degrees; `inner <= outer <= 180`, `0 < outer`.
+        /// Angle from the axis beyond which it is zero, in degrees; `inner <= outer <= 180`, `0 < outer`.
         outer: f32,
         /// Total power Φ in watts, per channel.
         power: Rgb,
     },
-    /// A triangle that emits from its front and reflects nothing.
+    /// A triangle light: emits from its front and reflects nothing.
     Triangle {
-        /// Its corners, counter-clockwise seen from the front.
+        /// The vertices, counter-clockwise seen from the front.
         vertices: [Vec3; 3],
         /// Emitted radiance.
         radiance: Rgb,
     },
 }
 
-/// Settings that a scene file may suggest.
+/// Default render settings of a scene; `None` if the file does not set them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Defaults {
     /// Image width in pixels.
     pub width: Option<u32>,
     /// Image height in pixels.
     pub height: Option<u32>,
-    /// Largest number of scattering events of a path.
+    /// Maximum number of bounces.
     pub max_bounces: Option<u32>,
 }
 
 impl SceneDescription {
-    /// BLAKE3 over the content, in hexadecimal: equal for equal content, whatever the files looked like.
+    /// BLAKE3 hash of the content, in hexadecimal. It does not depend on how the files are written.
     pub fn hash(&self) -> String {
         struct HashWriter(blake3::Hasher);
         impl std::io::Write for HashWriter {

@@ -1,35 +1,35 @@
-//! What a scene has, and so what it needs.
+//! Features of a scene.
 
 use std::fmt;
 
-/// What there is in a scene. Worked out once, when it is loaded; the renderer leaves out what the scene does not
-/// need, and the grader plans only the checks that mean something in it.
+/// What a scene contains. Determined once, when the scene is built; the renderer skips what the scene does not need, and
+/// the grader plans only checks that are meaningful for it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Features {
-    /// Triangles that rays can hit, those of lights included.
+    /// Number of triangles that rays can hit, including lights.
     pub triangles: usize,
-    /// Lights that paths can hit by chance.
+    /// Number of lights with an area, which paths can hit.
     pub area_lights: usize,
-    /// Lights without an area: point and spot lights.
+    /// Number of lights without an area: point and spot lights.
     pub point_lights: usize,
-    /// Surfaces of mirror or glass (triangles).
+    /// Number of triangles with a delta lobe: mirror or glass.
     pub delta_surfaces: usize,
-    /// Surfaces with a Phong lobe (triangles).
+    /// Number of triangles with a Phong lobe.
     pub glossy_surfaces: usize,
-    /// Surfaces on which next event estimation has something to do: not black, not of delta lobes alone.
+    /// Number of triangles where next event estimation applies: with a diffuse or Phong lobe.
     pub lit_surfaces: usize,
-    /// Surfaces with a texture (triangles).
+    /// Number of triangles with a texture.
     pub textured_surfaces: usize,
-    /// Surfaces with interpolated normals (triangles).
+    /// Number of triangles with interpolated normals.
     pub smooth_surfaces: usize,
-    /// True if the camera is enclosed by surfaces without a hole, so that no light can get lost.
+    /// True if closed surfaces enclose the camera, so that no path can leave the scene.
     pub closed: bool,
-    /// True if there are more triangles than are tested one after the other, without a hierarchy.
+    /// True if the acceleration structure has a hierarchy; a few triangles are tested one by one.
     pub hierarchy: bool,
 }
 
 impl Features {
-    /// True if there is any light at all.
+    /// True if there is at least one light.
     pub fn has_lights(&self) -> bool {
         self.area_lights + self.point_lights > 0
     }
@@ -38,22 +38,18 @@ impl Features {
 impl fmt::Display for Features {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let count = |n: usize, without: &str| if n == 0 { format!("0  ({without})") } else { n.to_string() };
-        writeln!(f, "triangles          {}", count(self.triangles, "nothing to hit"))?;
-        writeln!(f, "lights with area   {}", count(self.area_lights, "paths never hit a light by chance"))?;
-        writeln!(f, "point-like lights  {}", count(self.point_lights, "every light can be hit by chance"))?;
-        writeln!(f, "delta surfaces     {}", count(self.delta_surfaces, "no mirror, no glass"))?;
+        writeln!(f, "triangles          {}", count(self.triangles, "rays hit nothing"))?;
+        writeln!(f, "area lights        {}", count(self.area_lights, "paths never hit a light"))?;
+        writeln!(f, "point lights       {}", count(self.point_lights, "paths can hit every light"))?;
+        writeln!(f, "delta surfaces     {}", count(self.delta_surfaces, "no mirror or glass"))?;
         writeln!(f, "glossy surfaces    {}", count(self.glossy_surfaces, "no Phong lobes"))?;
         writeln!(
             f,
             "lit surfaces       {}",
-            count(self.lit_surfaces, "next event estimation has nothing to do")
+            count(self.lit_surfaces, "next event estimation does not apply")
         )?;
-        writeln!(f, "textured surfaces  {}", count(self.textured_surfaces, "texture look-ups left out"))?;
-        writeln!(
-            f,
-            "smooth surfaces    {}",
-            count(self.smooth_surfaces, "interpolation of normals left out")
-        )?;
+        writeln!(f, "textured surfaces  {}", count(self.textured_surfaces, "texture lookup is skipped"))?;
+        writeln!(f, "smooth surfaces    {}", count(self.smooth_surfaces, "normal interpolation is skipped"))?;
         writeln!(
             f,
             "closed             {}",
@@ -62,7 +58,7 @@ impl fmt::Display for Features {
         write!(
             f,
             "hierarchy          {}",
-            if self.hierarchy { "yes" } else { "no  (few triangles: tested in turn)" }
+            if self.hierarchy { "yes" } else { "no  (few triangles, tested one by one)" }
         )
     }
 }

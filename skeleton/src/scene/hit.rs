@@ -1,35 +1,36 @@
-//! The point where a ray meets a surface.
+//! Hit points.
 
-use super::{Attributes, NONE, Scene, Specular, Surface, Triangle};
+use super::{Attributes, NONE, Scene, Specular, Surface, Triangle, recorded};
 use crate::accel::{TriangleHit, offset_origin, point_on};
-use crate::bsdf::{Bsdf, Glass, Lobe, LocalGeometry, Phong};
-use crate::light::Light;
+use crate::bsdf::{Bsdf, Glass, Lobe, LocalGeometry, Phong, ScriptedLobe};
+use crate::light::{Emission, Light, recorded_emission};
 use crate::math::{Rgb, Vec2, Vec3};
+use crate::probe;
 use crate::ray::Ray;
 
-/// A point on a surface, seen from where a ray came from. All vectors are in world space.
+/// The point where a ray hits a surface. All vectors are in world space; the viewer is at the origin of the ray.
 #[derive(Clone, Copy)]
 pub struct Hit<'a> {
-    /// The point.
+    /// The hit point.
     pub point: Vec3,
-    /// The shading normal: interpolated if the mesh has normals. A unit vector on the viewer's side.
+    /// Shading normal, interpolated if the mesh has normals: a unit vector on the viewer's side.
     pub normal: Vec3,
-    /// The normal of the triangle. A unit vector on the viewer's side.
+    /// Geometric normal of the triangle: a unit vector on the viewer's side.
     pub geometric_normal: Vec3,
-    /// The direction back to where the ray came from: a unit vector, away from the surface.
+    /// Direction to the viewer: a unit vector pointing away from the surface.
     pub wo: Vec3,
     pub(super) scene: &'a Scene,
     pub(super) triangle: &'a Triangle,
     /// The index of the triangle.
     pub(super) primitive: u32,
     barycentrics: [f32; 2],
-    /// True if the ray came from the front.
+    /// True if the ray has hit the front of the triangle.
     front: bool,
 }
 
 impl Attributes {
-    /// The interpolated normal on the viewer's side; that of the triangle if there is none, or if the viewer would be
-    /// below its horizon.
+    /// The interpolated normal on the viewer's side. The geometric normal if the triangle has no vertex normals, or if the
+    /// viewer is below the interpolated horizon.
     #[inline(never)]
     fn normal(&self, [v, w]: [f32; 2], geometric_normal: Vec3, wo: Vec3) -> Vec3 {
         let Some([a, b, c]) = self.normals else { return geometric_normal };
@@ -65,23 +66,33 @@ impl<'a> Hit<'a> {
         }
     }
 
-    /// The light that was hit, or `None` if this surface emits nothing to where the ray came from: lights emit from
-    /// their front only.
+    /// The light hit here and what it emits towards the viewer. `None` if the surface is not a light, or if the ray has hit
+    /// the back of one.
     #[inline]
-    pub fn light(&self) -> Option<&'a Light> {
+    pub fn emission(&self) -> Option<Emission<'a>> {
+        let mut emission = self.light()?.emission(self.wo)?;
+        if !self.scene.switches.emission_on_hit() {
+            emission.radiance = Rgb::BLACK;
+        }
+        probe::record(|| recorded_emission(self.point, &emission));
+        Some(emission)
+    }
+
+    /// The light that was hit from its front, if any.
+    #[inline]
+    pub(super) fn light(&self) -> Option<&'a Light> {
         let light = if self.front { self.triangle.light } else { self.triangle.back_light };
         (light != NONE).then(|| &self.scene.lights[light as usize])
     }
 
-    /// How the surface scatters light at this point.
+    /// The BSDF of the surface at this point.
     #[inline]
     pub fn bsdf(&self) -> Bsdf {
         let geometry =
             LocalGeometry { normal: self.normal, geometric_normal: self.geometric_normal, wo: self.wo };
         let surface = self.surface();
-        #[cfg(feature = "probe")]
         if let Some(script) = surface.script {
-            return Bsdf::single(geometry, Lobe::Scripted(script.seen_from(self.point)));
+            return Bsdf::single(geometry, Lobe::Scripted(ScriptedLobe::new(script, self.point)));
         }
         match surface.specular {
             Specular::None => Bsdf::single(geometry, Lobe::Diffuse { albedo: self.diffuse_albedo() }),
@@ -107,7 +118,7 @@ impl<'a> Hit<'a> {
         if albedo.is_black() {
             return Bsdf::single(geometry, lobe);
         }
-        // As often as it reflects light, by and large.
+        // Selection probability roughly proportional to the reflectance.
         let (kd, ks) = (albedo.luminance(), reflectance.luminance());
         Bsdf::mixture(geometry, diffuse, lobe, (kd / (kd + ks)).clamp(0.05, 0.95))
     }
@@ -117,7 +128,7 @@ impl<'a> Hit<'a> {
         &self.scene.surfaces[self.triangle.surface as usize]
     }
 
-    /// The diffuse reflectance at this point, with the texture applied.
+    /// The diffuse albedo at this point, including the texture.
     #[inline]
     pub(crate) fn diffuse_albedo(&self) -> Rgb {
         let surface = self.surface();
@@ -127,13 +138,13 @@ impl<'a> Hit<'a> {
         }
     }
 
-    /// The colour of a texture at this point.
+    /// The value of a texture at this point.
     #[inline(never)]
     fn texel(&self, map: u32) -> Rgb {
         self.scene.textures[map as usize].lookup(self.uv())
     }
 
-    /// Texture coordinates, (0, 0) where the mesh has none.
+    /// Texture coordinates; (0, 0) if the mesh has none.
     fn uv(&self) -> Vec2 {
         let attributes = self.scene.attributes.get(self.triangle.attributes as usize);
         let Some([a, b, c]) = attributes.and_then(|attributes| attributes.uvs) else { return Vec2::ZERO };
@@ -141,23 +152,22 @@ impl<'a> Hit<'a> {
         (1.0 - v - w) * a + v * b + w * c
     }
 
-    /// The absolute cosine between the shading normal and a direction.
+    /// Absolute cosine between the shading normal and a unit direction.
     #[inline]
     pub fn cos(&self, wi: Vec3) -> f32 {
         let cos = self.normal.dot(wi).abs();
-        #[cfg(feature = "probe")]
-        crate::probe::record(|| super::scripted::cos_call(wi, cos));
+        probe::record(|| recorded::cos(wi, cos));
         cos
     }
 
-    /// The ray that leaves this point into the unit direction `wi`, to either side of the surface. It does not hit
-    /// the surface that it leaves; for another direction spawn another ray.
+    /// A ray from this point in the unit direction `wi`, on either side of the surface. It cannot hit the triangle it starts
+    /// on. For another direction, spawn another ray.
     #[inline]
     pub fn spawn(&self, wi: Vec3) -> Ray {
-        Ray { leaves: Some(self.primitive), ..Ray::new(self.leave_towards(wi), wi) }
+        Ray { exclude: Some(self.primitive), ..Ray::new(self.leave_towards(wi), wi) }
     }
 
-    /// The point just off the surface from which something that lies in the given direction is looked at.
+    /// The origin of rays in the given direction, offset from the surface against self-intersection.
     #[inline]
     pub(super) fn leave_towards(&self, direction: Vec3) -> Vec3 {
         offset_origin(self.point, self.geometric_normal, direction)

@@ -1,14 +1,13 @@
-//! Scenes: what they are made of, what they look like from a ray.
+//! Scenes: descriptions, files, and what a ray hits.
 
 mod build;
 mod closed;
 mod description;
-mod diagnostic;
 mod features;
 #[cfg(feature = "files")]
 pub mod file;
 mod hit;
-#[cfg(feature = "probe")]
+mod recorded;
 mod scripted;
 mod texture;
 
@@ -16,18 +15,19 @@ use crate::accel::Accel;
 use crate::camera::Camera;
 use crate::light::Light;
 use crate::math::{Rgb, Vec2, Vec3};
+use crate::probe::{self, ScriptedBsdf, Switches};
 use crate::ray::Ray;
 
+pub use crate::camera::CameraDescription;
 pub use description::*;
-pub use diagnostic::Diagnostic;
 pub use features::Features;
 pub use hit::Hit;
 
-/// A scene, ready to be asked by rays. Nothing in it changes while it is rendered.
+/// A scene ready for rendering; immutable.
 pub struct Scene {
     accel: Accel,
     triangles: Vec<Triangle>,
-    /// Normals and texture coordinates of those triangles that have them.
+    /// Normals and texture coordinates, for triangles that have them.
     attributes: Vec<Attributes>,
     surfaces: Vec<Surface>,
     textures: Vec<Texture>,
@@ -36,26 +36,25 @@ pub struct Scene {
     defaults: Defaults,
     features: Features,
     warnings: Vec<String>,
-    #[cfg(feature = "probe")]
-    switches: crate::probe::Switches,
+    switches: Switches,
 }
 
-/// What is needed of a triangle once it is hit.
+/// The data of a triangle that are needed once it is hit.
 struct Triangle {
     vertices: [Vec3; 3],
     /// Unit normal of the front.
     normal: Vec3,
     /// Index into [`Scene::surfaces`].
     surface: u32,
-    /// The light that its front is: index into [`Scene::lights`], or [`NONE`].
+    /// The light on its front: index into [`Scene::lights`], or [`NONE`].
     light: u32,
-    /// The light that its back is, if another triangle stood there the other way round.
+    /// The light on its back, from a duplicate triangle with the opposite orientation; or [`NONE`].
     back_light: u32,
     /// Index into [`Scene::attributes`], or [`NONE`].
     attributes: u32,
 }
 
-/// No such thing, where an index is expected.
+/// The index that refers to nothing.
 const NONE: u32 = u32::MAX;
 
 struct Attributes {
@@ -63,63 +62,61 @@ struct Attributes {
     uvs: Option<[Vec2; 3]>,
 }
 
-/// A material, with what is the same at all of its points worked out.
+/// A material in the form that hits need.
 struct Surface {
     diffuse: Rgb,
     diffuse_map: Option<u32>,
     specular: Specular,
-    #[cfg(feature = "probe")]
-    script: Option<crate::probe::ScriptedBsdf>,
+    /// In the build of the grader's host only.
+    script: Option<ScriptedBsdf>,
 }
 
 impl Scene {
-    /// The nearest surface that the ray hits.
+    /// The nearest surface hit by the ray; `None` if the ray leaves the scene.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit<'_>> {
-        #[cfg(feature = "probe")]
-        crate::probe::count(|counts| counts.rays += 1);
-        let hit = self.accel.intersect(ray.origin, ray.direction, f32::INFINITY, ray.leaves);
+        probe::count_ray();
+        let hit = self.accel.intersect(ray.origin, ray.direction, f32::INFINITY, ray.exclude);
         let hit = hit.map(|hit| Hit::new(self, ray, hit));
-        #[cfg(feature = "probe")]
-        scripted::record_intersect(ray, hit.as_ref());
+        probe::record(|| recorded::intersect(ray, hit.as_ref()));
         hit
     }
 
-    /// True if something stands strictly between a hit and a point (world space), such as one on a light.
+    /// Traces a shadow ray: true if any surface, glass included, lies strictly between a hit and a point (world space), such
+    /// as one on a light.
     ///
-    /// Neither the surface that was hit nor the one that `point` lies on counts, nor what is behind them: no
-    /// offsets are needed. Everything else does, glass too.
+    /// The surface that was hit and the one that `point` lies on do not count, so no offsets are needed.
     #[inline]
     pub fn occluded(&self, hit: &Hit<'_>, point: Vec3) -> bool {
-        let occluded =
-            || self.accel.occluded(hit.leave_towards(point - hit.point), point, Some(hit.primitive));
-        #[cfg(feature = "probe")]
-        let occluded = || self.probe_shadow_ray(hit, point, occluded);
-        occluded()
+        probe::count_shadow_ray();
+        let origin = hit.leave_towards(point - hit.point);
+        let occluded = self.accel.occluded(origin, point, Some(hit.primitive));
+        probe::record(|| recorded::occluded(hit, point, occluded));
+        occluded
     }
 
-    /// All lights; [`Light::index`] is the place in this slice.
+    /// All lights. [`Light::index`] is the index into this slice.
     #[inline]
     pub fn lights(&self) -> &[Light] {
         &self.lights
     }
 
-    /// The camera of the scene, for an image of the given size.
+    /// The camera of the scene for an image of the given size in pixels.
     pub fn camera(&self, width: u32, height: u32) -> Camera {
         Camera::new(&self.camera, width, height)
     }
 
-    /// Settings that the scene file suggests.
+    /// The settings suggested by the scene file.
     pub fn defaults(&self) -> Defaults {
         self.defaults
     }
 
-    /// What there is in the scene, and what is not.
+    /// The features of the scene.
     pub fn features(&self) -> &Features {
         &self.features
     }
 
-    /// What the reader of the scene should know: dropped triangles, limits of precision.
+    /// Warnings about the scene: ignored triangles, limits of precision.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
     }

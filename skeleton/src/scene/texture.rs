@@ -1,12 +1,12 @@
-//! Looking up textures.
+//! Texture lookup.
 
 use super::Texture;
 use crate::math::{Rgb, Vec2};
 use crate::srgb::srgb_to_linear_u8;
 
 impl Texture {
-    /// The linear colour at texture coordinates `uv`, between the centres of texels by bilinear interpolation.
-    /// (0, 0) is the lower left corner; the texture repeats in both directions.
+    /// The linear colour at texture coordinates `uv`, by bilinear interpolation between texel centres. (0, 0) is the lower
+    /// left corner; the texture repeats in both directions.
     pub(crate) fn lookup(&self, uv: Vec2) -> Rgb {
         let (u, v) = (uv.x - uv.x.floor(), uv.y - uv.y.floor());
         let x = u * self.width as f32 - 0.5;
@@ -38,8 +38,8 @@ mod tests {
         };
         near((0.25, 0.75), Rgb::new(1.0, 0.0, 0.0)); // upper left
         near((0.25, 0.25), Rgb::new(0.0, 0.0, 1.0)); // lower left
-        near((-3.75, 5.25), Rgb::new(0.0, 0.0, 1.0)); // the same, some repetitions away
-        near((0.5, 0.75), Rgb::new(0.5, 0.5, 0.0)); // half way between two texels
-        near((0.0, 0.75), Rgb::new(0.5, 0.5, 0.0)); // and across the seam
+        near((-3.75, 5.25), Rgb::new(0.0, 0.0, 1.0)); // the same, repeated
+        near((0.5, 0.75), Rgb::new(0.5, 0.5, 0.0)); // halfway between two texels
+        near((0.0, 0.75), Rgb::new(0.5, 0.5, 0.0)); // across the seam
     }
 }

@@ -1,4 +1,4 @@
-//! The algorithms that the program offers: the student's file filled in, all else as it is in the skeleton.
+//! The algorithms of the program: the student's file completed, everything else from the skeleton.
 
 #[path = "../../../skeleton/src/algorithms/render_debug.rs"]
 pub mod render_debug;

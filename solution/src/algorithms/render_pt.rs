@@ -1,28 +1,31 @@
 //! Exercise 5: next event estimation and multiple importance sampling.
 //!
-//! What stands here is the path tracer of the sheet before. It finds light only by hitting it by chance. Fill in
-//! the places marked `TASK … END`, so that each of the three techniques does what its name says:
+//! This is the path tracer of the previous sheet: it finds light only when a path happens to hit a light source.
+//! Complete the places marked `TASK … END`, so that each technique does what its name says:
 //!
-//! - `bsdf`: light is hit by chance, as now;
-//! - `nee` (5.1): each hit point also asks a random point on a random light, and no light is counted twice;
-//! - `mis` (5.2): light found in both ways, weighted by the balance heuristic.
+//! - `bsdf`: BSDF sampling alone, as now;
+//! - `nee` (5.1): next event estimation at every hit point, with no light counted twice;
+//! - `mis` (5.2): both combined by multiple importance sampling with the balance heuristic.
 //!
-//! This file is your hand-in, and nothing else is. You may change it as you like, add functions and types, and use
-//! `std` and `arty::prelude`, as long as it defines `PathTracer` with `new` and `radiance` as below. To see what
-//! your tools can do: `cargo doc -p arty --open`.
+//! There are two functions to write, `direct_light` and `emission_weight`, and one decision to make: what to remember
+//! of the last bounce, in `LastBounce`.
+//!
+//! This file is your submission. You may change it as you like, add functions and types, and use `std` and
+//! `arty::prelude`, as long as it defines `PathTracer` with `new` and `radiance` as below. The documentation of your
+//! tools: `cargo doc -p arty --open`.
 
 use arty::prelude::*;
 
-/// From how many bounces on a path may be ended by Russian roulette.
+/// First bounce at which Russian roulette applies.
 const ROULETTE_START: u32 = 5;
 
-/// A path tracer: it follows one path from the camera and adds up the light it finds on its way.
+/// A path tracer: follows one path from the camera and sums the light found along it.
 pub struct PathTracer {
     settings: Settings,
 }
 
 impl PathTracer {
-    /// A path tracer with the technique and the longest path that the settings ask for.
+    /// A path tracer with the given technique and maximum number of bounces.
     pub fn new(settings: Settings) -> Self {
         Self { settings }
     }
@@ -30,60 +33,38 @@ impl PathTracer {
 
 impl Integrator for PathTracer {
     fn radiance(&self, scene: &Scene, mut ray: Ray, sampler: &mut Sampler) -> Rgb {
-        // What the path has found so far, and what share of light from its end reaches the camera:
-        // the product of f · cos / p over all bounces.
+        // The light found so far, and the throughput: the product of f · cos / pdf over all bounces.
         let mut radiance = Rgb::BLACK;
         let mut throughput = Rgb::WHITE;
-
-        // TASK 5.1b, 5.2b: what do you have to know about the last bounce when the path hits a light?
-        // Where it was and the density of its direction; nothing if a light sample could not have taken its place:
-        // at the camera, and after a delta bounce.
-        let mut last_bounce: Option<(Vec3, f32)> = None;
-        // END 5.1b, 5.2b
+        // None at the camera.
+        let mut last_bounce: Option<LastBounce> = None;
 
         for bounce in 0..=self.settings.max_bounces {
             let Some(hit) = scene.intersect(&ray) else { break };
 
-            // 1. Has the path hit a light? Then add what it emits.
-            if let Some(light) = hit.light() {
-                let emission = light.emission(&hit);
-
-                // TASK 5.1b, 5.2b: how much of it counts, if next event estimation could have found it too?
-                let weight = match (self.settings.technique, last_bounce) {
-                    (Technique::Bsdf, _) | (_, None) => 1.0,
-                    (Technique::Nee, Some(_)) => 0.0,
-                    (Technique::Mis, Some((from, p_brdf))) => {
-                        let (_, distance) = direction(from, hit.point);
-                        let p_ne =
-                            pick_probability(scene) * emission.pdf_area * distance * distance / emission.cos;
-                        balance(p_brdf, p_ne)
-                    }
-                };
-                // END 5.1b, 5.2b
-
+            // 1. Add the emission of the light that the path has hit, if it has hit one.
+            if let Some(emission) = hit.emission() {
+                let weight = self.emission_weight(scene, &hit, &emission, last_bounce);
                 radiance += throughput * emission.radiance * weight;
             }
             if bounce == self.settings.max_bounces {
                 break;
             }
+
+            // 2. Add direct light by next event estimation.
             let bsdf = hit.bsdf();
+            radiance += throughput * self.direct_light(scene, &hit, &bsdf, sampler);
 
-            // 2. Ask a light.
-            // TASK 5.1a, 5.2b: add the contribution of a random point on a random light, with a single shadow ray.
-            if self.settings.technique != Technique::Bsdf && !bsdf.is_delta() {
-                radiance += throughput * self.direct_light(scene, &hit, &bsdf, sampler);
-            }
-            // END 5.1a, 5.2b
-
-            // 3. Go on in a random direction.
+            // 3. Sample the BSDF for the direction of the next ray.
             let Some(sample) = bsdf.sample(sampler) else { break };
             throughput *= sample.f * (sample.cos / sample.pdf);
 
-            // TASK 5.1b, 5.2b: remember what you need of this bounce.
-            last_bounce = (!sample.is_delta).then_some((hit.point, sample.pdf));
+            // TASK 5.1b, 5.2b: remember what `emission_weight` has to know about this bounce.
+            // Nothing after a delta bounce: no light sample could have taken its place.
+            last_bounce = (!sample.is_delta).then_some(LastBounce { point: hit.point, p_brdf: sample.pdf });
             // END 5.1b, 5.2b
 
-            // 4. Russian roulette: end the path by chance, the more likely the less it can still bring.
+            // 4. Russian roulette: the lower the throughput, the more likely the path ends.
             if bounce + 1 >= ROULETTE_START {
                 let survival = throughput.max_channel().min(0.95);
                 if sampler.next_1d() >= survival {
@@ -97,38 +78,76 @@ impl Integrator for PathTracer {
     }
 }
 
-// TASK 5.1a, 5.2b: functions of your own, if you want some.
 impl PathTracer {
-    /// Next event estimation: the light that one random point on one random light sends to the viewer by way of
-    /// `hit`, divided by the density of that choice per solid angle; for MIS, times its weight.
+    /// Next event estimation: an estimate of the direct light that `hit` reflects towards the viewer, from one random
+    /// point on one random light. Black for the technique `bsdf`; includes the MIS weight for the technique `mis`.
     fn direct_light(&self, scene: &Scene, hit: &Hit, bsdf: &Bsdf, sampler: &mut Sampler) -> Rgb {
+        // TASK 5.1a, 5.2b: sample a light and a point on it, and trace a single shadow ray.
+        if self.settings.technique == Technique::Bsdf || bsdf.is_delta() {
+            return Rgb::BLACK;
+        }
         let pick = sampler.next_1d() * scene.lights().len() as f32;
         let Some(light) = scene.lights().get(pick as usize) else { return Rgb::BLACK };
         let Some(sample) = light.sample_direct(hit.point, sampler) else { return Rgb::BLACK };
 
-        let (wi, distance) = direction(hit.point, sample.point);
+        let (wi, distance) = direction_and_distance(hit.point, sample.point);
         let f = bsdf.eval(wi);
         if f.is_black() || scene.occluded(hit, sample.point) {
             return Rgb::BLACK;
         }
-        let p_ne = pick_probability(scene) * sample.pdf_area * distance * distance / sample.cos;
+        let p_ne = p_light(scene) * sample.pdf_area * distance * distance / sample.cos_light;
         let weight = match self.settings.technique {
-            // A light without an area is never hit by chance.
+            // No path ever hits a light without an area.
             Technique::Mis if light.has_area() => balance(p_ne, bsdf.pdf(wi)),
             _ => 1.0,
         };
-        f * sample.intensity * (hit.cos(wi) * weight / p_ne)
+        f * sample.emitted * (hit.cos(wi) * weight / p_ne)
+        // END 5.1a, 5.2b
+    }
+
+    /// The weight of the emission at `hit`: how much of it counts, given that next event estimation at the last bounce
+    /// could have found the same light. 1 for the technique `bsdf`.
+    fn emission_weight(
+        &self,
+        scene: &Scene,
+        hit: &Hit,
+        emission: &Emission,
+        last_bounce: Option<LastBounce>,
+    ) -> f32 {
+        // TASK 5.1b, 5.2b: which light can next event estimation not find? What is the MIS weight of the rest?
+        // Seen by the camera or by way of a delta bounce, it is found by no light sample.
+        let Some(LastBounce { point, p_brdf }) = last_bounce else { return 1.0 };
+        match self.settings.technique {
+            Technique::Bsdf => 1.0,
+            Technique::Nee => 0.0,
+            Technique::Mis => {
+                let (_, distance) = direction_and_distance(point, hit.point);
+                let p_ne = p_light(scene) * emission.pdf_area * distance * distance / emission.cos_light;
+                balance(p_brdf, p_ne)
+            }
+        }
+        // END 5.1b, 5.2b
     }
 }
 
-/// The probability with which next event estimation picks each light.
-fn pick_probability(scene: &Scene) -> f32 {
+/// What `emission_weight` has to know about the bounce before a hit.
+// TASK 5.1b, 5.2b: which fields does it need? If you want functions of your own, they can go here, too.
+#[derive(Clone, Copy)]
+struct LastBounce {
+    /// The hit point where the path bounced, in world space.
+    point: Vec3,
+    /// Density per solid angle with which the direction was sampled.
+    p_brdf: f32,
+}
+
+/// The selection probability: with which next event estimation picks each of the lights.
+fn p_light(scene: &Scene) -> f32 {
     1.0 / scene.lights().len() as f32
 }
 
-/// The balance heuristic, p / (p + q), for the technique whose density is p; as a quotient of densities it holds
-/// where their sum would overflow.
+/// The balance heuristic p / (p + q), where p is the density of the technique to be weighted. As a quotient of
+/// densities it does not overflow where their sum would.
 fn balance(p: f32, q: f32) -> f32 {
     1.0 / (1.0 + q / p)
 }
-// END 5.1a, 5.2b
+// END 5.1b, 5.2b

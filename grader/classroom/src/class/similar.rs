@@ -199,7 +199,7 @@ mod tests {
         let starter = Starter::new(&starter_text);
         let solution = read(&workspace.solution_file());
         let disguised = solution
-            .replace("pick_probability", "chance")
+            .replace("p_light(", "chance(")
             .replace("balance(", "heuristic(")
             .replace("    ", "\t")
             .replace('{', "{ // mine\n/// all mine\n");

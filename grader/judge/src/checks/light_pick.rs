@@ -8,7 +8,7 @@
 use std::f64::consts::PI;
 
 use arty::integrator::Settings;
-use arty::math::{Rgb, Vec3, direction};
+use arty::math::{Rgb, Vec3, direction_and_distance};
 use arty::sampler::batch_seed;
 use arty::scene::{
     CameraDescription, Defaults, LightDescription, Material, Mesh, MeshTriangle, SceneDescription, Specular,
@@ -147,7 +147,7 @@ fn scene() -> ScriptedScene {
         bsdfs: vec![None],
         lights: Vec::new(),
         origin: eye,
-        direction: direction(eye, SEEN).0,
+        direction: direction_and_distance(eye, SEEN).0,
     }
 }
 

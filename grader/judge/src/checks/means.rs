@@ -45,7 +45,7 @@ impl<'a> Picture<'a> {
             scenes,
             expected,
             settings: Settings { technique: spec.technique, max_bounces: spec.max_bounces },
-            switches: Switches { hits_off: spec.hits == Hits::Off, ..Switches::default() },
+            switches: Switches { emission_on_hit: spec.hits == Hits::On },
             tolerance: spec.tolerance,
             screening_level: bench.screening_level,
             looks: bench.looks,

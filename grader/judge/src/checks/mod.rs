@@ -181,7 +181,7 @@ impl Bench<'_> {
             seed: 0,
             pixel: [0, 0],
             sample: 0,
-            switches: Switches { hits_off: spec.hits == Hits::Off, ..Switches::default() },
+            switches: Switches { emission_on_hit: spec.hits == Hits::On },
         };
         place.of(sample).command(&self.path)
     }

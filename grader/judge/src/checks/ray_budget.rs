@@ -125,7 +125,7 @@ mod tests {
     use super::*;
 
     fn paths(rays: u32, shadow_rays: u32) -> Vec<ProbedPath> {
-        vec![ProbedPath { radiance: [0.0; 3], rays, shadow_rays, light_samples: 1, bsdf_samples: 1 }; 2]
+        vec![ProbedPath { radiance: [0.0; 3], rays, shadow_rays, light_samples: 1 }; 2]
     }
 
     #[test]

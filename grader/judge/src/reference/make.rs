@@ -49,9 +49,9 @@ pub fn make(
     let mut views = BTreeMap::new();
     for (&view, techniques) in wanted {
         let max_bounces = view.max_bounces;
-        let hits_off = view.hits == Hits::Off;
-        renderer.switches = Switches { hits_off, ..Switches::default() };
-        let technique = if hits_off { Technique::Nee } else { Technique::Mis };
+        let emission_on_hit = view.hits == Hits::On;
+        renderer.switches = Switches { emission_on_hit };
+        let technique = if emission_on_hit { Technique::Mis } else { Technique::Nee };
         let settings = Settings { technique, max_bounces };
         let batches = renderer.render(SIZE, settings, effort.batches, effort.samples, seed)?;
         let (mean, variance) = mean_and_variance(&batches);

@@ -84,7 +84,7 @@ impl Place {
              --seed={} --size={width}x{height}",
             self.scene, self.sample, self.technique, self.max_bounces, self.seed
         );
-        if self.switches.hits_off {
+        if !self.switches.emission_on_hit {
             command += " --hits-off";
         }
         if self.scale != 1.0 {

@@ -23,7 +23,7 @@ pub fn vertices(path: &Path, place: &Place) -> Vec<Vertex> {
                 let bounce = vertices.len() as u32;
                 vertices.push(Vertex { bounce, throughput, hit: None, light_sample: None });
             }
-            "Light::emission" => {
+            "Hit::emission" => {
                 let light = found_by_hit(step, place.technique, last, here, lights, throughput);
                 if let Some(vertex) = vertices.last_mut() {
                     vertex.hit = light;
@@ -77,7 +77,7 @@ fn found_by_hit(
     let density = last.map(|(_, density)| density);
     let other_density = match last.filter(|_| technique == Technique::Mis) {
         Some((from, _)) => {
-            Some(step.number("pdf_area")? * squared_distance(from, here) / step.number("cos")? / lights)
+            Some(step.number("pdf_area")? * squared_distance(from, here) / step.number("cos_light")? / lights)
         }
         None => None,
     };
@@ -100,12 +100,12 @@ fn found_by_sample(
     let find = |function: &str| rest.iter().find(|step| step.function == function);
     let f = f64::from(*find("Bsdf::eval")?.got("f")?.get(1)?);
     let distance = squared_distance(here, triple(step.got("point")?));
-    let density = step.number("pdf_area")? * distance / step.number("cos")? / lights;
+    let density = step.number("pdf_area")? * distance / step.number("cos_light")? / lights;
     let other_density = find("Bsdf::pdf").and_then(|step| step.number("pdf"));
     let weight = other_density.map_or(1.0, |other| density / (density + other));
     let visible = find("Scene::occluded").and_then(|step| step.number("occluded")) == Some(0.0);
     let cos = find("Hit::cos").and_then(|step| step.number("cos")).unwrap_or(0.0);
-    let intensity = f64::from(*step.got("intensity")?.get(1)?);
-    let contribution = if visible { throughput * f * intensity * cos * weight / density } else { 0.0 };
+    let emitted = f64::from(*step.got("emitted")?.get(1)?);
+    let contribution = if visible { throughput * f * emitted * cos * weight / density } else { 0.0 };
     Some(FoundLight { density: Some(density), other_density, weight, contribution })
 }

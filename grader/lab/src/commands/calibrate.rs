@@ -323,7 +323,7 @@ impl Recorder<'_> {
     fn record(&self, program: &HandInProgram) -> Result<std::result::Result<Pool, Fault>> {
         let Self { judged, spec, count, threads } = *self;
         let settings = Settings { technique: spec.technique, max_bounces: spec.max_bounces };
-        let switches = Switches { hits_off: spec.hits == Hits::Off, ..Switches::default() };
+        let switches = Switches { emission_on_hit: spec.hits == Hits::On };
         Pool::record(program, &judged.description, settings, switches, count, threads, SEED)
     }
 

@@ -15,7 +15,7 @@ const PHRASES: [&str; 7] = [
     "sampler: &mut Sampler) -> Rgb { let ",
     ") else { return Rgb::BLACK }; let (",
     ") { return Rgb::BLACK; }",
-    "; let (wi, distance) = direction(hit.point,",
+    "; let (wi, distance) = direction_and_distance(hit.point,",
     "Option<(Vec3, f32)>",
     "scene.lights().len() as f32",
     "); let f = bsdf.eval(wi)",

@@ -57,14 +57,14 @@ fn a_light_does_not_block_itself_but_what_is_before_it_does() {
 #[test]
 fn the_triangle_that_is_left_is_not_there() {
     let plate = |z: f32| [Vec3::new(-1.0, -1.0, z), Vec3::new(2.0, -1.0, z), Vec3::new(-1.0, 2.0, z)];
-    // One packet, and a tree.
+    // One block, and a tree.
     for count in [3, 100] {
         let triangles: Vec<Triangle> = (0..count).map(|index| plate(index as f32)).collect();
         let accel = Accel::build(&triangles);
         let (origin, up) = (Vec3::new(0.1, 0.1, 0.5), Vec3::Z);
-        let hit = |leaves| accel.intersect(origin, up, f32::INFINITY, leaves).map(|hit| hit.primitive);
+        let hit = |exclude| accel.intersect(origin, up, f32::INFINITY, exclude).map(|hit| hit.primitive);
         assert_eq!((hit(None), hit(Some(0)), hit(Some(1))), (Some(1), Some(1), Some(2)));
-        let blocked = |leaves| accel.occluded(origin, origin + up, leaves);
+        let blocked = |exclude| accel.occluded(origin, origin + up, exclude);
         assert!(blocked(None) && blocked(Some(0)) && !blocked(Some(1)));
     }
 }
@@ -135,8 +135,8 @@ fn an_offset_point_is_on_its_side_of_the_plane_and_near() {
                 let side = f64::from(normal.as_vec3().dot(direction)).signum();
                 let height = side * normal.dot(moved.as_dvec3() - triangle[0].as_dvec3());
                 assert!(height > 0.0, "{height} beside {triangle:?}");
-                let greatest = f64::from(point.abs().max_element());
-                assert!(height < 8.0 * f64::from(f32::EPSILON) * greatest + 1e-29, "{height} from {point}");
+                let magnitude = f64::from(point.abs().max_element());
+                assert!(height < 8.0 * f64::from(f32::EPSILON) * magnitude + 1e-29, "{height} from {point}");
             }
         }
     }

@@ -16,7 +16,7 @@ fn soup(random: &mut Random, count: usize) -> Vec<Triangle> {
         .collect()
 }
 
-/// Distance and least barycentric weight where a ray meets a triangle's plane.
+/// Distance and smallest barycentric weight where a ray meets a triangle's plane.
 fn meet(triangle: &Triangle, origin: Vec3, direction: Vec3) -> (f64, f64) {
     let [a, b, c] = triangle.map(Vec3::as_dvec3);
     let (origin, direction) = (origin.as_dvec3(), direction.as_dvec3());

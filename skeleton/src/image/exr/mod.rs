@@ -1,7 +1,7 @@
-//! Pictures to compute with: OpenEXR files of one part with named layers.
+//! Images to compute with: OpenEXR files of one part with named layers.
 //!
 //! The layers share one part and are told apart by the names of their channels (see [`channel_names`]),
-//! which every viewer that knows layers understands, and one that does not shows the main picture.
+//! which every viewer that knows layers understands, and one that does not shows the main image.
 
 use std::collections::BTreeMap;
 
@@ -18,7 +18,7 @@ mod write;
 pub enum Precision {
     /// 32 bits: every value is read back as it was, NaN and infinity included.
     Full,
-    /// 16 bits, for pictures that are only looked at: about three digits, and finite values beyond ±65504
+    /// 16 bits, for images that are only looked at: about three digits, and finite values beyond ±65504
     /// become that.
     Half,
 }
@@ -39,7 +39,7 @@ pub struct ExrFile {
 }
 
 impl ExrFile {
-    /// A file that shows one picture.
+    /// A file that shows one image.
     pub fn new(picture: &Image) -> Self {
         let file = Self { width: picture.width(), height: picture.height(), ..Self::default() };
         file.with_layer("", picture)
@@ -49,7 +49,7 @@ impl ExrFile {
     ///
     /// # Panics
     ///
-    /// If the layer has another size than the picture.
+    /// If the layer has another size than the image.
     pub fn with_layer(mut self, name: &str, layer: &Image) -> Self {
         assert_eq!((layer.width(), layer.height()), (self.width, self.height), "all layers have one size");
         for (index, channel) in channel_names(name).into_iter().enumerate() {
@@ -67,7 +67,7 @@ impl ExrFile {
         self
     }
 
-    /// One layer, or None if the file has not all three of its channels; the empty name is the main picture.
+    /// One layer, or None if the file has not all three of its channels; the empty name is the main image.
     pub fn layer(&self, name: &str) -> Option<Image> {
         let mut image = Image::new(self.width, self.height);
         let [red, green, blue] = channel_names(name).map(|channel| self.channels.get(&channel));

@@ -14,7 +14,7 @@ use ::exr::meta::header::{Header, LayerAttributes};
 use ::exr::prelude::f16;
 
 use super::ExrFile;
-use crate::scene::Diagnostic;
+use crate::diagnostic::Diagnostic;
 
 /// The most samples that are read: 1 GiB of memory.
 const MAX_SAMPLES: u128 = 1 << 28;
@@ -60,7 +60,7 @@ pub(super) fn decode(file: impl Read + Seek, length: u64) -> Result<ExrFile, Str
     let chunks = reader.all_chunks(true).map_err(explain)?;
     for block in chunks.sequential_decompressor(true) {
         let block = block.map_err(explain)?;
-        // There are as many blocks as the picture needs, hence none is missing if none comes twice.
+        // There are as many blocks as the image needs, hence none is missing if none comes twice.
         let top = block.index.pixel_position.y();
         if std::mem::replace(&mut is_row_read[top], true) {
             return Err(format!("it holds row {top} twice"));
@@ -102,7 +102,7 @@ fn check(header: &Header, length: u64) -> Result<(), String> {
     Ok(())
 }
 
-/// Copies the samples of a block to where they belong in the channels of the picture.
+/// Copies the samples of a block to where they belong in the channels of the image.
 fn copy_samples(block: &UncompressedBlock, header: &Header, channels: &mut [Vec<f32>]) -> Result<(), Error> {
     let width = header.layer_size.width();
     for line in block.lines(&header.channels) {

@@ -32,7 +32,7 @@ fn decoded(bytes: &[u8]) -> Result<ExrFile, String> {
     decode(Cursor::new(bytes), bytes.len() as u64)
 }
 
-/// A picture of more than one block of rows, with a pattern that every pixel and channel can be told from.
+/// An image of more than one block of rows, with a pattern that every pixel and channel can be told from.
 fn pattern(width: usize, height: usize, offset: f32) -> Image {
     let value = |i: usize| (i as f32 * 0.37 + offset).sin() * 10.0;
     let pixels = (0..width * height).map(|i| Rgb::new(value(3 * i), value(3 * i + 1), value(3 * i + 2)));
@@ -132,7 +132,7 @@ fn half_precision_rounds_and_keeps_finite_values_finite() {
 }
 
 #[test]
-fn other_readers_find_the_picture_and_its_layers_in_one_part() {
+fn other_readers_find_the_image_and_its_layers_in_one_part() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("picture.exr");
     let (picture, variance) = (pattern(5, 20, 0.0), pattern(5, 20, 1.0));
@@ -187,7 +187,7 @@ fn foreign_file(compression: Compression, blocks: Blocks, order: LineOrder) -> V
     .collect();
     let layer = ::exr::prelude::Layer::new(
         Vec2(3, 18),
-        // The data window of a cropped picture does not start at zero.
+        // The data window of a cropped image does not start at zero.
         LayerAttributes::default().with_position(Vec2(-5, 11)),
         Encoding { compression, blocks, line_order: order },
         AnyChannels::sort(channels),
@@ -288,7 +288,7 @@ fn with_attribute(bytes: &[u8], name: &str, kind: &str, value: &[u8]) -> Vec<u8>
 }
 
 #[test]
-fn a_header_that_claims_a_huge_picture_is_refused_before_any_memory_is_taken() {
+fn a_header_that_claims_a_huge_image_is_refused_before_any_memory_is_taken() {
     let bytes = bytes_of(&small_file(), Precision::Full);
     let claimed = |width: i32, height: i32| {
         let window: Vec<u8> = [0, 0, width - 1, height - 1].iter().flat_map(|x| x.to_le_bytes()).collect();

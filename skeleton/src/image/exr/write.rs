@@ -12,8 +12,8 @@ use ::exr::meta::header::{Header, LayerAttributes, standard_names};
 use ::exr::prelude::{SmallVec, f16};
 
 use super::{ExrFile, Precision};
+use crate::diagnostic::Diagnostic;
 use crate::image::write_aside;
-use crate::scene::Diagnostic;
 
 /// Names of channels and metadata may have this many bytes.
 const MAX_NAME_LENGTH: usize = 255;
@@ -35,7 +35,7 @@ impl ExrFile {
     /// What stands before the pixels, or what is wrong with it.
     fn header(&self, precision: Precision) -> Result<Header, String> {
         let (width, height) = (self.width, self.height);
-        // The format ends at i32::MAX / 2; a picture near that would not fit into memory.
+        // The format ends at i32::MAX / 2; an image near that would not fit into memory.
         if !(1..1 << 30).contains(&width) || !(1..1 << 30).contains(&height) {
             return Err(format!("{width} x {height} pixels are too few or too many"));
         }

@@ -104,7 +104,7 @@ fn counting(width: usize, height: usize) -> Image {
 }
 
 #[test]
-fn the_viewer_gets_the_picture_and_its_layers() {
+fn the_viewer_gets_the_image_and_its_layers() {
     let (address, packets) = viewer();
     let mut view = LiveView::open(&address, "a pic\0ture", 2, 1, &["", "variance"]).expect("it listens");
     view.show("", &counting(2, 1)).expect("it listens");
@@ -136,7 +136,7 @@ fn the_viewer_gets_the_picture_and_its_layers() {
 }
 
 #[test]
-fn a_large_picture_arrives_in_bands_that_cover_it() {
+fn a_large_image_arrives_in_bands_that_cover_it() {
     let (width, height) = (1000, 700);
     let image = counting(width, height);
     let (address, packets) = viewer();
@@ -161,7 +161,7 @@ fn a_large_picture_arrives_in_bands_that_cover_it() {
 }
 
 #[test]
-fn a_picture_without_pixels_is_nothing_to_send() {
+fn an_image_without_pixels_is_nothing_to_send() {
     let (address, packets) = viewer();
     let mut view = LiveView::open(&address, "empty", 0, 0, &[""]).expect("it listens");
     view.show("", &Image::new(0, 3)).expect("there is nothing to send");

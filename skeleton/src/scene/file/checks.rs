@@ -1,6 +1,4 @@
-//! Values of a scene file that are checked while they are read.
-//!
-//! Checking inside of `deserialize` lets the parser say in which line the wrong value stands.
+//! Values of a scene file, validated during deserialization so that errors carry the line of the value.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -11,7 +9,7 @@ use serde::de::{Deserialize, Deserializer, Error, MapAccess, Unexpected, Visitor
 
 use crate::math::Rgb;
 
-/// Reads one number, which `accept` must find to be what is `expected`.
+/// Reads a number that must satisfy `accept`; `expected` describes it in the error.
 fn number<'de, D: Deserializer<'de>>(
     deserializer: D,
     expected: &'static str,
@@ -43,7 +41,7 @@ fn number<'de, D: Deserializer<'de>>(
     deserializer.deserialize_f64(NumberVisitor { expected, accept })
 }
 
-/// True if the number is finite even in single precision.
+/// True if the number is finite in single precision.
 fn fits_f32(value: f64) -> bool {
     (value as f32).is_finite()
 }
@@ -59,7 +57,7 @@ impl<'de> Deserialize<'de> for Number {
 }
 
 impl Number {
-    /// The number in double precision, as it was written.
+    /// The number in double precision.
     pub(super) fn get(self) -> f64 {
         self.0
     }
@@ -81,18 +79,18 @@ impl Vector {
     }
 }
 
-/// A number that is not negative.
+/// A non-negative number.
 #[derive(Clone, Copy)]
 struct NonNegative(f32);
 
 impl<'de> Deserialize<'de> for NonNegative {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let accept = |value| value >= 0.0 && fits_f32(value);
-        number(deserializer, "a finite number that is not negative", accept).map(|value| Self(value as f32))
+        number(deserializer, "a finite, non-negative number", accept).map(|value| Self(value as f32))
     }
 }
 
-/// Three numbers that are not negative.
+/// Three non-negative numbers.
 #[derive(Clone, Copy, serde::Deserialize)]
 pub(super) struct Colour([NonNegative; 3]);
 
@@ -102,11 +100,11 @@ impl From<Colour> for Rgb {
     }
 }
 
-/// An angle of view in degrees, in (0, 180).
+/// A field of view in degrees, in (0, 180).
 pub(super) fn field_of_view<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f32, D::Error> {
-    // The comparison is made in single precision, so that 179.999999999 does not become 180 afterwards.
+    // Compared in single precision, so that 179.999999999 is not rounded to 180 afterwards.
     let accept = |value| 0.0 < value as f32 && (value as f32) < 180.0;
-    number(deserializer, "an angle of view in degrees, between 0 and 180", accept).map(|value| value as f32)
+    number(deserializer, "a field of view in degrees, between 0 and 180", accept).map(|value| value as f32)
 }
 
 /// A number of pixels, in 1..=65536.
@@ -115,15 +113,15 @@ pub(super) fn pixels<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Optio
     number(deserializer, "a whole number of pixels from 1 to 65536", accept).map(|value| Some(value as u32))
 }
 
-/// A number of scattering events, in 0..=u32::MAX.
+/// A number of bounces, in 0..=u32::MAX.
 pub(super) fn bounces<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<u32>, D::Error> {
     let accept = |value: f64| (0.0..=f64::from(u32::MAX)).contains(&value) && value.fract() == 0.0;
     number(deserializer, "a whole number of bounces, 0 or more", accept).map(|value| Some(value as u32))
 }
 
-/// Reads a mapping with the keys of `Keys` and makes a `T` of it, if its values go together.
+/// Reads a mapping with the keys of `Keys` and converts it to a `T`, which validates the combination of values.
 ///
-/// The line of an error is that in which the mapping starts.
+/// Errors carry the line in which the mapping starts.
 pub(super) fn mapping<'de, D, Keys, T>(deserializer: D, expected: &'static str) -> Result<T, D::Error>
 where
     D: Deserializer<'de>,

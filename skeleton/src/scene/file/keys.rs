@@ -1,4 +1,4 @@
-//! The keys of a scene file, and which of their values go together.
+//! The keys of a scene file, and validation of their values.
 
 use std::fmt;
 
@@ -11,7 +11,7 @@ use super::checks::{Colour, Number, Vector, bounces, field_of_view, mapping, pix
 use super::transform::{Step, compose};
 use crate::scene::{CameraDescription, Defaults, LightDescription};
 
-/// What a scene file says, but for the content of the files that it names.
+/// The contents of a scene file, without the files it refers to.
 pub(super) struct SceneFile {
     pub(super) meshes: Vec<MeshEntry>,
     pub(super) camera: CameraDescription,
@@ -21,7 +21,7 @@ pub(super) struct SceneFile {
 
 /// One entry of `meshes`.
 pub(super) struct MeshEntry {
-    /// As written, relative to the scene file.
+    /// The file name as written, relative to the scene file.
     pub(super) file: String,
     /// Invertible.
     pub(super) transform: DAffine3,
@@ -116,9 +116,9 @@ impl TryFrom<CameraKeys> for PerspectiveCamera {
         let (eye, center, up) = (keys.eye.single(), keys.center.single(), keys.up.single());
         let view = (center.as_dvec3() - eye.as_dvec3())
             .try_normalize()
-            .ok_or("`eye` and `center` are the same point, so the camera looks nowhere")?;
+            .ok_or("`eye` and `center` must not be the same point")?;
         let upwards = up.as_dvec3().try_normalize().ok_or("`up` must not be zero")?;
-        // The sine of the angle between them. Below this, rounding would decide how the picture is turned.
+        // The sine of the angle between them. Below this, rounding would determine the roll of the camera.
         if view.cross(upwards).length() < 1e-5 {
             return Err("`up` must not be parallel to the direction from `eye` to `center`".into());
         }
@@ -197,8 +197,8 @@ impl TryFrom<SpotLightKeys> for SpotLight {
         let (inner, outer) = (keys.inner.get() as f32, keys.outer.get() as f32);
         if !(0.0 <= inner && inner <= outer && 0.0 < outer && outer <= 180.0) {
             return Err(format!(
-                "`inner` is {inner} and `outer` is {outer}, but they are angles from the axis in degrees with \
-                 0 <= inner <= outer, 0 < outer <= 180"
+                "`inner` is {inner} and `outer` is {outer}; they must satisfy 0 <= inner <= outer and 0 < outer <= 180 \
+                 (degrees from the axis)"
             ));
         }
         let (position, power) = (keys.position.single(), keys.color.into());
@@ -230,9 +230,9 @@ impl TryFrom<TriangleLightKeys> for TriangleLight {
         let vertices = [keys.v0.single(), keys.v1.single(), keys.v2.single()];
         let [a, b, c] = vertices.map(|vertex| vertex.as_dvec3());
         let (ab, ac) = (b - a, c - a);
-        // Corners on a line that is not along an axis leave an area of the size of their rounding.
+        // For collinear vertices the area may not be exactly zero, due to rounding.
         if ab.cross(ac).length() <= 1e-7 * ab.length() * ac.length() || b == c {
-            return Err("the triangle has no area: `v0`, `v1` and `v2` are on one line".into());
+            return Err("the triangle has no area: `v0`, `v1` and `v2` are collinear".into());
         }
         Ok(Self(LightDescription::Triangle { vertices, radiance: keys.color.into() }))
     }

@@ -1,20 +1,22 @@
-//! From what an MTL file says to materials that scatter no more light than they receive.
+//! From MTL definitions to energy-conserving materials.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use super::mtl::{self, Definition, Definitions};
-use super::text::{self, Reference};
+use super::text;
 use super::texture::Textures;
 use super::warnings::Warnings;
+use crate::diagnostic::Diagnostic;
+use crate::input::Reference;
 use crate::math::Rgb;
-use crate::scene::{Diagnostic, Material, Specular, Texture};
+use crate::scene::{Material, Specular, Texture};
 use crate::srgb::srgb_to_linear_u8;
 
-/// How much more than 1 a sum of reflectances may be before it is corrected: decimals in a file are rounded.
+/// Tolerance for sums of reflectances above 1: decimals in a file are rounded.
 const TOLERANCE: f32 = 1e-5;
 
-/// The materials and textures of a scene so far, and the files that they come from.
+/// The materials and textures read so far, and their files.
 #[derive(Default)]
 pub(super) struct Materials {
     materials: Vec<Material>,
@@ -25,7 +27,7 @@ pub(super) struct Materials {
 }
 
 impl Materials {
-    /// Reads an MTL file unless that was done before.
+    /// Reads an MTL file, unless it has been read before.
     pub(super) fn read_library(
         &mut self,
         file: &Path,
@@ -38,7 +40,7 @@ impl Materials {
         Ok(())
     }
 
-    /// The index of the material `name` of the last of `libraries` that defines it.
+    /// The index of the material `name`, from the last of `libraries` that defines it; `None` if none does.
     pub(super) fn find(
         &mut self,
         libraries: &[PathBuf],
@@ -60,7 +62,7 @@ impl Materials {
         Ok(Some(index))
     }
 
-    /// The index of the material of faces that have none.
+    /// The index of the material for faces without one.
     pub(super) fn default_material(&mut self) -> u32 {
         let material = Material {
             name: "default".into(),
@@ -134,7 +136,7 @@ impl Materials {
     }
 }
 
-/// Adds a material; says its index, which fits because files are too small for 2^32 materials.
+/// Adds a material and returns its index, which fits into 32 bits because of the limits on file sizes.
 fn push(materials: &mut Vec<Material>, material: Material) -> u32 {
     materials.push(material);
     (materials.len() - 1) as u32
@@ -149,7 +151,7 @@ fn index_of_refraction(
         Some((line, 0.0)) => Err(Diagnostic::at(file, line, "`Ni` of glass must be greater than 0")),
         Some((_, index)) => Ok(index),
         None => {
-            warn("is glass without `Ni`; 1.5 is used".into());
+            warn("`Ni` is missing for glass; using 1.5".into());
             Ok(1.5)
         }
     }
@@ -157,7 +159,7 @@ fn index_of_refraction(
 
 fn phong_exponent(definition: &Definition, warn: &mut impl FnMut(String)) -> f32 {
     definition.ns.unwrap_or_else(|| {
-        warn("has `Ks` without `Ns`; the exponent 1 is used".into());
+        warn("`Ns` is missing; using the exponent 1".into());
         1.0
     })
 }
@@ -165,25 +167,23 @@ fn phong_exponent(definition: &Definition, warn: &mut impl FnMut(String)) -> f32
 /// Limits each channel to 1.
 fn at_most_one(factor: Rgb, keyword: &str, warn: &mut impl FnMut(String)) -> Rgb {
     if factor.max_channel() > 1.0 {
-        warn(format!(
-            "`{keyword}` is greater than 1 and would make light out of nothing; it is limited to 1"
-        ));
+        warn(format!("`{keyword}` is greater than 1, which violates energy conservation; limited to 1"));
     }
     factor.map(|channel| channel.min(1.0))
 }
 
-/// Scales `Kd` and `Ks` by the same factor if they reflect more light than arrives, where the texture is
-/// brightest. One factor for all channels keeps the hue.
+/// Scales `Kd` and `Ks` by a common factor if they reflect more light than they receive at the brightest texel. The same
+/// factor for all channels keeps the hue.
 fn conserve_energy(kd: Rgb, brightest: Rgb, ks: Rgb, warn: &mut impl FnMut(String)) -> (Rgb, Rgb) {
-    let most = (kd * brightest + ks).max_channel();
-    if most <= 1.0 + TOLERANCE {
+    let max = (kd * brightest + ks).max_channel();
+    if max <= 1.0 + TOLERANCE {
         return (kd, ks);
     }
-    warn(format!("reflects {most} times the light that arrives (`Kd` + `Ks`); both are divided by that"));
-    (kd / most, ks / most)
+    warn(format!("`Kd` + `Ks` is {max}, which violates energy conservation; both are divided by it"));
+    (kd / max, ks / max)
 }
 
-/// The largest value of each channel, as a linear factor.
+/// The maximum of each channel, as a linear value.
 fn brightest_texel(texture: &Texture) -> Rgb {
     let largest = texture.texels.iter().fold([0; 3], |largest: [u8; 3], texel| {
         [0, 1, 2].map(|channel| largest[channel].max(texel[channel]))
@@ -196,7 +196,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn energy_is_conserved_where_the_texture_is_brightest_and_not_before() {
+    fn energy_is_conserved_at_the_brightest_texel() {
         let mut warnings = Vec::new();
         let mut warn = |message| warnings.push(message);
         let half = Rgb::gray(0.5);
@@ -204,7 +204,7 @@ mod tests {
         let (kd, ks) = conserve_energy(Rgb::gray(0.9), Rgb::WHITE, Rgb::new(0.3, 0.1, 0.0), &mut warn);
         assert!(((kd + ks).max_channel() - 1.0).abs() < 1e-6);
         assert!((ks.r / ks.g - 3.0).abs() < 1e-6);
-        // A sum of exactly representable decimals that exceeds 1 by rounding only is left alone.
+        // A sum that exceeds 1 by rounding only is not corrected.
         conserve_energy(Rgb::gray(0.7), Rgb::WHITE, Rgb::gray(0.300_001), &mut warn);
         assert_eq!(warnings.len(), 1);
     }

@@ -1,4 +1,4 @@
-//! Scene files. This page is the reference of the format.
+//! Scene files: the reference of the format.
 //!
 //! # The scene file
 //!
@@ -21,60 +21,59 @@
 //! defaults: { width: 512, height: 412, max_bounces: 8 }     # optional, each of the three too
 //! ```
 //!
-//! - **`meshes`**: OBJ files. `!rotate` turns counter-clockwise seen from the tip of its axis. `!matrix` is for
-//!   column vectors, row by row; its last row is 0, 0, 0, 1. A transform that mirrors leaves outsides outside;
-//!   one that flattens is an error.
-//! - **`camera`**: `fov` is the angle between the left and the right edge of the image in degrees, in (0, 180).
-//!   `eye` and `center` differ, and `up` is not parallel to the direction between them.
+//! - **`meshes`**: OBJ files. `!rotate` rotates counter-clockwise about the axis, seen from its tip. `!matrix` is an affine
+//!   matrix for column vectors, in row-major order; its last row must be 0, 0, 0, 1. Reflections keep the orientation of
+//!   closed meshes; singular transforms are an error.
+//! - **`camera`**: `fov` is the horizontal field of view in degrees, in (0, 180). `eye` and `center` must differ, and `up`
+//!   must not be parallel to the view direction.
 //! - **`lights`**: `color` is the power in watts of a `!point_light` and a `!spot_light`, and the radiance of a
-//!   `!triangle_light`, whose front is the side from which its corners run counter-clockwise. `inner` and
-//!   `outer` are angles from the axis in degrees, 0 ≤ inner ≤ outer, 0 < outer ≤ 180.
+//!   `!triangle_light`, whose front is the side from which its vertices are counter-clockwise. `inner` and `outer` are angles
+//!   from the axis in degrees, 0 ≤ inner ≤ outer, 0 < outer ≤ 180.
 //! - **`defaults`**: `width` and `height` from 1 to 65536.
 //!
-//! Names of files are relative to the file in which they stand; `\` separates folders like `/` does. Text is
-//! UTF-8, with or without a byte order mark, with line ends of any system.
+//! File names are relative to the file that contains them; both `/` and `\` separate folders. Text is UTF-8, with or
+//! without a byte order mark, with the line endings of any system.
 //!
 //! # OBJ files
 //!
-//! - Read are `v`, `vt`, `vn`, `f`, `mtllib` and `usemtl`. Weights of vertices are applied, their colours
-//!   ignored. `o`, `g` and `s` say nothing here; lines, points and free-form surfaces are left out with a
-//!   warning. Anything else is an error. A `\` at the end of a line continues it.
-//! - Polygons become fans of triangles around their first corner, so they should be convex.
-//! - Indices start from 1; negative ones count back from the line that they stand in. The corners of a face
-//!   all have the same parts (`v`, `v/vt`, `v//vn` or `v/vt/vn`). A triangle without normals, or with one of
-//!   length zero, is shaded flat.
-//! - A material that none of the libraries defines is an error. Faces before any `usemtl`, and all faces of a
-//!   file without `mtllib`, become grey (diffuse 0.5), with a warning.
+//! - `v`, `vt`, `vn`, `f`, `mtllib` and `usemtl` are read. Vertex weights are applied, vertex colours ignored. `o`, `g` and
+//!   `s` have no effect; lines, points and free-form surfaces are ignored with a warning. Anything else is an error. A `\` at
+//!   the end of a line continues it.
+//! - Polygons are triangulated as fans around their first vertex, so they should be convex.
+//! - Indices start at 1; negative indices count backwards from the current line. All corners of a face must have the same
+//!   form (`v`, `v/vt`, `v//vn` or `v/vt/vn`). Triangles without normals, or with a normal of length zero, are shaded flat.
+//! - A material that no library defines is an error. Faces before any `usemtl`, and all faces of a file without `mtllib`, get
+//!   a grey diffuse material (albedo 0.5), with a warning.
 //!
 //! # MTL files
 //!
 //! | statement | meaning | if missing |
 //! |---|---|---|
-//! | `Kd r g b` | diffuse reflectance | white with a `map_Kd`, else black |
-//! | `map_Kd image` | texture, multiplied with `Kd`; its options are ignored with a warning | no texture |
+//! | `Kd r g b` | diffuse albedo | white with a `map_Kd`, else black |
+//! | `map_Kd image` | texture, multiplied by `Kd`; options are ignored with a warning | no texture |
 //! | `Ks r g b` | specular reflectance | white for glass and for `illum 5`, else black |
 //! | `Ns n` | exponent of the Phong lobe | 1, with a warning |
 //! | `Ke r g b` | radiance emitted from the front | black |
 //! | `Ni n` | index of refraction | 1.5, with a warning |
-//! | `Tf r g b` | factor on what glass lets through | white |
+//! | `Tf r g b` | factor on light transmitted by glass | white |
 //! | `illum n` | 5: mirror `Ks`; 3: diffuse `Kd` and mirror `Ks`; 4, 6, 7, 9: glass with `Ni`, `Ks`, `Tf`; all others: diffuse `Kd` and Phong lobe `Ks`, `Ns` | diffuse and Phong lobe |
 //!
-//! Colours may be written with one number for all channels. No value may be negative. No material reflects
-//! more than it receives: factors of mirrors and glass are limited to 1, and where `Kd` (times the brightest
-//! texel) and `Ks` together exceed 1, both are divided by their largest sum, with a warning. Other statements
-//! are ignored, with a warning if they would change the picture.
+//! A colour can be given as one number for all channels. Values must not be negative. Materials conserve energy: factors of
+//! mirrors and glass are limited to 1, and if the sum of `Kd` (times the brightest texel) and `Ks` exceeds 1 in a channel,
+//! both are divided by the largest sum, with a warning. Other statements are ignored, with a warning if they would change
+//! the image.
 //!
 //! # Images
 //!
-//! PNG, JPEG, BMP and TGA of at most 16384 × 16384 pixels. They become 8-bit RGB: 16 bits are reduced, alpha is
-//! dropped. Values are taken to have the sRGB transfer curve.
+//! PNG, JPEG, BMP and TGA of at most 16384 × 16384 pixels, converted to 8-bit RGB without alpha. Values are interpreted as
+//! sRGB.
 
 mod checks;
 mod keys;
 mod materials;
 mod mtl;
 mod obj;
-pub(crate) mod text;
+mod text;
 mod texture;
 mod transform;
 mod warnings;
@@ -84,32 +83,34 @@ use std::path::Path;
 
 use self::keys::SceneFile;
 use self::materials::Materials;
-use self::text::{Reference, relative_to};
+use self::text::relative_to;
 use self::transform::Placement;
 use self::warnings::Warnings;
-use super::{Diagnostic, SceneDescription};
+use super::SceneDescription;
+use crate::diagnostic::Diagnostic;
+use crate::input::Reference;
 use crate::yaml;
 
-/// A scene as read, and what there is to say about its files.
+/// A scene that was read, with warnings about its files.
 #[derive(Clone, Debug)]
 pub struct Loaded {
-    /// The scene.
+    /// The description of the scene.
     pub description: SceneDescription,
-    /// What is probably not meant, but could be read; each thing once.
+    /// Warnings about probably unintended input; each is given once.
     pub warnings: Vec<Diagnostic>,
 }
 
-/// Reads a scene file and all files that it names.
+/// Reads a scene file and all files it refers to.
 ///
 /// # Errors
-/// The first thing found that makes the scene unusable: the file that is wrong (it need not be `path`), the line
-/// if one is to blame, and what was expected.
+/// The first error found: the file (not necessarily `path`), the line if the error is in a single one, and what was
+/// expected.
 pub fn load(path: &Path) -> Result<Loaded, Diagnostic> {
     let (scene, text) = yaml::read::<SceneFile>(path)?;
     let mut materials = Materials::default();
     let mut warnings = Warnings::default();
     let mut meshes = Vec::with_capacity(scene.meshes.len());
-    // A scene may have one file thousands of times, so its name is looked up once.
+    // A scene may use the same file thousands of times, so its line is looked up once.
     let mut lines = HashMap::new();
     for mesh in &scene.meshes {
         let file = relative_to(path, &mesh.file);
@@ -132,7 +133,7 @@ pub fn load(path: &Path) -> Result<Loaded, Diagnostic> {
 
 /// The line of a scene file that names `file`.
 ///
-/// The parser keeps no positions, so this looks for the text. A name that was written with escapes is not found.
+/// The parser does not provide positions, so this searches the text. A name written with escapes is not found.
 fn line_that_names(file: &str, text: &str) -> Option<usize> {
     let names_it = |line: &str| !line.trim_start().starts_with('#') && line.contains(file);
     text.lines().position(names_it).map(|index| index + 1)

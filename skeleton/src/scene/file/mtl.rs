@@ -1,18 +1,20 @@
-//! MTL: what materials are said to be, value by value.
+//! MTL files: the statements of each material.
 //!
-//! Not by `tobj`: it knows no `Tf`, no lines and no wrong values, and panics at a colour of two numbers.
+//! `tobj` is not used here: it supports neither `Tf` nor line numbers, accepts invalid values, and panics on a colour of two
+//! numbers.
 
 use std::collections::HashMap;
 use std::path::Path;
 
-use super::text::{self, Reference, Statement, statements};
+use super::text::{Statement, statements};
 use super::warnings::Warnings;
+use crate::diagnostic::Diagnostic;
+use crate::input::{self, Reference};
 use crate::math::Rgb;
-use crate::scene::Diagnostic;
 
 const MAX_BYTES: u64 = 64 << 20;
 
-/// The statements of one material; `None` for those that are missing.
+/// The statements of one material; `None` for missing ones.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Definition {
     /// The line of `newmtl`.
@@ -22,19 +24,19 @@ pub(super) struct Definition {
     pub(super) ke: Option<Rgb>,
     pub(super) tf: Option<Rgb>,
     pub(super) ns: Option<f32>,
-    /// With its line.
+    /// Line and value.
     pub(super) ni: Option<(usize, f32)>,
     /// In 0..=10.
     pub(super) illum: Option<u8>,
-    /// The name of an image, with its line.
+    /// Line and name of an image.
     pub(super) map_kd: Option<(usize, String)>,
 }
 
 /// The materials of an MTL file by name.
 pub(super) type Definitions = HashMap<String, Definition>;
 
-/// Statements that have no meaning for the materials of this renderer: ambient colour, transparency without
-/// refraction, and parameters of other models that are written beside those read here.
+/// Statements ignored without a warning: ambient colour, transparency without refraction, and parameters of other models
+/// that are commonly written in addition to those supported here.
 const HARMLESS: [&str; 15] = [
     "Ka",
     "map_Ka",
@@ -53,7 +55,7 @@ const HARMLESS: [&str; 15] = [
     "interpolateMode",
 ];
 
-/// Options of a map and how many words follow them at most.
+/// Options of a map, with the maximum number of arguments.
 const MAP_OPTIONS: [(&str, usize); 14] = [
     ("-blendu", 1),
     ("-blendv", 1),
@@ -71,20 +73,20 @@ const MAP_OPTIONS: [(&str, usize); 14] = [
     ("-type", 1),
 ];
 
-/// Reads an MTL file, but not the images that it names.
+/// Reads an MTL file, without the images it refers to.
 pub(super) fn read(
     file: &Path,
     named: &Reference,
     warnings: &mut Warnings,
 ) -> Result<Definitions, Diagnostic> {
-    let text = text::read(file, MAX_BYTES, Some(named))?;
+    let text = input::read(file, MAX_BYTES, Some(named))?;
     let mut definitions = Definitions::new();
     let mut current: Option<(&str, Definition)> = None;
     for statement in statements(&text) {
         if statement.keyword == "newmtl" {
             let name = statement.arguments;
             if name.is_empty() {
-                let message = "`newmtl` must be followed by the name of the material";
+                let message = "`newmtl` needs the name of the material";
                 return Err(Diagnostic::at(file, statement.line, message));
             }
             let next = (name, Definition { line: statement.line, ..Definition::default() });
@@ -92,7 +94,7 @@ pub(super) fn read(
             continue;
         }
         let Some((_, definition)) = &mut current else {
-            let message = format!("`{}` stands before the first `newmtl`", statement.keyword);
+            let message = format!("`{}` before the first `newmtl`", statement.keyword);
             return Err(Diagnostic::at(file, statement.line, message));
         };
         definition
@@ -113,13 +115,16 @@ fn keep(
     let line = definition.line;
     if let Some(former) = definitions.insert(name.to_owned(), definition) {
         let message =
-            format!("the material `{name}` is also defined in line {}; this one is used", former.line);
+            format!("material `{name}` is already defined in line {}; using this definition", former.line);
         warnings.add(Diagnostic::at(file, line, message));
     }
 }
 
 impl Definition {
-    /// Takes one statement; an error says what is wrong with it.
+    /// Adds a statement.
+    ///
+    /// # Errors
+    /// What is wrong with it.
     fn take(
         &mut self,
         statement: &Statement<'_>,
@@ -137,17 +142,17 @@ impl Definition {
             "map_Kd" => {
                 let (name, has_options) = without_options(statement.arguments);
                 if name.is_empty() {
-                    return Err("`map_Kd` must be followed by the name of an image".into());
+                    return Err("`map_Kd` needs the name of an image".into());
                 }
                 if has_options {
-                    let message = "the options of `map_Kd` are ignored: the image is used as it is";
+                    let message = "the options of `map_Kd` are ignored";
                     warnings.add(Diagnostic::at(file, statement.line, message));
                 }
                 self.map_kd = Some((statement.line, name.to_owned()));
             }
             keyword if HARMLESS.contains(&keyword) => {}
             keyword => {
-                let message = format!("`{keyword}` is ignored: this renderer does not know it");
+                let message = format!("`{keyword}` is not supported and ignored");
                 warnings.once((file, keyword), Diagnostic::at(file, statement.line, message));
             }
         }
@@ -155,34 +160,30 @@ impl Definition {
     }
 }
 
-/// One number for all channels or one for each, none of them negative.
+/// One non-negative number for all channels, or one for each.
 fn colour(statement: &Statement<'_>) -> Result<Rgb, String> {
     match numbers(statement, "3 numbers")?[..] {
         [value] => Ok(Rgb::gray(value)),
         [r, g, b] => Ok(Rgb::new(r, g, b)),
-        ref other => Err(format!("`{}` wants 3 numbers, but has {}", statement.keyword, other.len())),
+        ref other => Err(format!("`{}` needs 3 numbers, but has {}", statement.keyword, other.len())),
     }
 }
 
-/// One number that is not negative.
+/// One non-negative number.
 fn single(statement: &Statement<'_>) -> Result<f32, String> {
     match numbers(statement, "one number")?[..] {
         [value] => Ok(value),
-        ref other => Err(format!("`{}` wants one number, but has {}", statement.keyword, other.len())),
+        ref other => Err(format!("`{}` needs one number, but has {}", statement.keyword, other.len())),
     }
 }
 
 fn numbers(statement: &Statement<'_>, expected: &str) -> Result<Vec<f32>, String> {
     let keyword = statement.keyword;
     let number = |word: &str| match word.parse::<f32>() {
-        Ok(value) if !value.is_finite() => {
-            Err(format!("`{keyword}` has the number `{word}`, which is not finite"))
-        }
-        Ok(value) if value < 0.0 => {
-            Err(format!("`{keyword}` has the number `{word}`, but must not be negative"))
-        }
+        Ok(value) if !value.is_finite() => Err(format!("`{keyword}`: the number `{word}` is not finite")),
+        Ok(value) if value < 0.0 => Err(format!("`{keyword}`: the number `{word}` must not be negative")),
         Ok(value) => Ok(value),
-        Err(_) => Err(format!("`{keyword}` wants {expected}, but `{word}` is none")),
+        Err(_) => Err(format!("`{keyword}` needs {expected}, but `{word}` is not a number")),
     };
     statement.uncommented().split_ascii_whitespace().map(number).collect()
 }
@@ -193,20 +194,21 @@ fn illumination_model(statement: &Statement<'_>) -> Result<u8, String> {
         .parse()
         .ok()
         .filter(|model| *model <= 10)
-        .ok_or_else(|| format!("`illum` wants a whole number from 0 to 10, but has `{argument}`"))
+        .ok_or_else(|| format!("`illum` needs a whole number from 0 to 10, but has `{argument}`"))
 }
 
-/// The file name in the arguments of a map, and whether there were options before it.
+/// The file name in the arguments of a map, and whether options precede it.
 fn without_options(arguments: &str) -> (&str, bool) {
     let mut rest = arguments;
     let mut found = false;
-    while let Some(&(_, most)) = MAP_OPTIONS.iter().find(|(option, _)| first_word(rest).0 == *option) {
+    while let Some(&(_, max_arguments)) = MAP_OPTIONS.iter().find(|(option, _)| first_word(rest).0 == *option)
+    {
         found = true;
         rest = first_word(rest).1;
-        for number in 0..most {
+        for number in 0..max_arguments {
             let (word, after) = first_word(rest);
-            // `-o`, `-s` and `-t` may have fewer numbers than three; the others have words that are no numbers.
-            if most == 3 && number > 0 && word.parse::<f32>().is_err() {
+            // `-o`, `-s` and `-t` have one to three numbers; the other options have a fixed number of arguments.
+            if max_arguments == 3 && number > 0 && word.parse::<f32>().is_err() {
                 break;
             }
             rest = after;

@@ -1,83 +1,15 @@
-//! Text files: reading them, and going through them line by line.
+//! Statements of OBJ and MTL files.
 
 use std::borrow::Cow;
-use std::fmt;
-use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::scene::Diagnostic;
-
-/// Where a file is named that is to be read.
-#[derive(Clone, Debug)]
-pub(crate) struct Reference {
-    /// The file that names it.
-    pub(super) file: PathBuf,
-    /// The line in which it does.
-    pub(super) line: Option<usize>,
-}
-
-impl fmt::Display for Reference {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "named in {}", self.file.display())?;
-        self.line.map_or(Ok(()), |line| write!(f, ":{line}"))
-    }
-}
-
-/// The path of a file that is named in another, relative to that one; `\` separates folders like `/` does.
+/// The path of a file named in another one, relative to that; both `/` and `\` separate folders.
 pub(super) fn relative_to(file: &Path, name: &str) -> PathBuf {
     let name = name.replace('\\', "/");
     file.parent().unwrap_or(Path::new("")).join(name)
 }
 
-/// A diagnostic about a file that cannot be read, which says where that file is named.
-pub(super) fn unreadable(path: &Path, named: Option<&Reference>, problem: impl fmt::Display) -> Diagnostic {
-    match named {
-        Some(reference) => Diagnostic::about(path, format!("{problem} ({reference})")),
-        None => Diagnostic::about(path, problem.to_string()),
-    }
-}
-
-/// Checks that there is a regular file of at most `max_bytes`, so that reading it comes to an end.
-pub(super) fn check_readable(
-    path: &Path,
-    max_bytes: u64,
-    named: Option<&Reference>,
-) -> Result<(), Diagnostic> {
-    let metadata = std::fs::metadata(path).map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => unreadable(path, named, "there is no such file"),
-        _ => unreadable(path, named, format_args!("cannot be read: {error}")),
-    })?;
-    if metadata.is_dir() {
-        return Err(unreadable(path, named, "is a folder, but a file was expected"));
-    }
-    if !metadata.is_file() {
-        return Err(unreadable(path, named, "is not a regular file"));
-    }
-    if metadata.len() > max_bytes {
-        let problem = format!("has {} bytes, but at most {max_bytes} are read", metadata.len());
-        return Err(unreadable(path, named, problem));
-    }
-    Ok(())
-}
-
-/// Reads a text file of at most `max_bytes`; a byte order mark is dropped.
-pub(crate) fn read(path: &Path, max_bytes: u64, named: Option<&Reference>) -> Result<String, Diagnostic> {
-    check_readable(path, max_bytes, named)?;
-    let bytes = std::fs::read(path)
-        .map_err(|error| unreadable(path, named, format_args!("cannot be read: {error}")))?;
-    let mut text = String::from_utf8(bytes).map_err(|error| {
-        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let line = valid.iter().filter(|byte| **byte == b'\n').count() + 1;
-        Diagnostic::at(path, line, "is not text in UTF-8, which was expected")
-    })?;
-    if text.starts_with('\u{feff}') {
-        text.drain(..'\u{feff}'.len_utf8());
-    }
-    Ok(text)
-}
-
-/// Joins lines that end in `\` with the next, and puts empty lines after them, so that the lines that follow
-/// keep their numbers.
+/// Joins lines that end in `\` with the next one. Empty lines are inserted after them to preserve line numbers.
 pub(super) fn join_continued_lines(text: &str) -> Cow<'_, str> {
     if !text.contains("\\\n") && !text.contains("\\\r\n") {
         return Cow::Borrowed(text);
@@ -105,22 +37,22 @@ pub(super) struct Statement<'a> {
     pub(super) line: usize,
     /// The first word.
     pub(super) keyword: &'a str,
-    /// What follows, without white space around it.
+    /// The rest of the line, trimmed.
     pub(super) arguments: &'a str,
-    /// The whole line with its end.
+    /// The whole line including its line ending.
     pub(super) text: &'a str,
-    /// Where the line starts in the file, in bytes.
+    /// Byte offset of the line in the file.
     pub(super) start: usize,
 }
 
 impl<'a> Statement<'a> {
-    /// The arguments without a comment after them.
+    /// The arguments without a trailing comment.
     pub(super) fn uncommented(&self) -> &'a str {
         self.arguments.split('#').next().unwrap_or_default().trim_ascii_end()
     }
 }
 
-/// The lines of an OBJ or MTL file, but for those that are empty or a comment.
+/// The statements of an OBJ or MTL file: all lines except empty ones and comments.
 pub(super) fn statements(text: &str) -> impl Iterator<Item = Statement<'_>> {
     let mut end_of_last = 0;
     text.split_inclusive('\n').enumerate().filter_map(move |(index, text)| {
@@ -141,7 +73,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn continued_lines_become_one_and_keep_the_numbers_of_the_others() {
+    fn joining_continued_lines_preserves_line_numbers() {
         let joined = join_continued_lines("f 1 2 \\\n 3\\\r\n 4\r\nv 0 0 0\n");
         let seen: Vec<_> = statements(&joined)
             .map(|statement| (statement.line, statement.keyword, statement.arguments))

@@ -1,4 +1,4 @@
-//! Images as textures.
+//! Texture images.
 
 use std::collections::HashMap;
 use std::fs::File;
@@ -7,12 +7,13 @@ use std::path::{Path, PathBuf};
 
 use image::{ImageFormat, ImageReader, Limits};
 
-use super::text::{self, Reference};
-use crate::scene::{Diagnostic, Texture};
+use crate::diagnostic::Diagnostic;
+use crate::input::{self, Reference};
+use crate::scene::Texture;
 
-/// Columns or rows of an image at most.
+/// Maximum width and height.
 const MAX_SIDE: u32 = 16384;
-/// What decoding may take of memory at most: an image of the largest size in 8-bit RGB, and some more.
+/// Memory limit for decoding: an image of the maximum size in 8-bit RGB, and some more.
 const MAX_DECODED_BYTES: u64 = 1 << 30;
 const MAX_FILE_BYTES: u64 = 1 << 30;
 
@@ -24,15 +25,15 @@ pub(super) struct Textures {
 }
 
 impl Textures {
-    /// The index of the texture in `file`, which is read if it was not yet.
+    /// The index of the texture in `file`, which is read the first time.
     pub(super) fn index(&mut self, file: &Path, named: &Reference) -> Result<u32, Diagnostic> {
-        // Two names of one file shall be one texture. If it cannot be resolved, reading it says why.
+        // Two names of one file are the same texture. If the path cannot be resolved, reading will fail with the reason.
         let key = file.canonicalize().unwrap_or_else(|_| file.to_owned());
         if let Some(&index) = self.indices.get(&key) {
             return Ok(index);
         }
         let index = u32::try_from(self.textures.len())
-            .map_err(|_| text::unreadable(file, Some(named), "is one texture too many"))?;
+            .map_err(|_| input::unreadable(file, Some(named), "exceeds the maximum number of textures"))?;
         self.textures.push(read(file, named)?);
         self.indices.insert(key, index);
         Ok(index)
@@ -50,9 +51,9 @@ impl Textures {
 }
 
 fn read(file: &Path, named: &Reference) -> Result<Texture, Diagnostic> {
-    text::check_readable(file, MAX_FILE_BYTES, Some(named))?;
+    input::check_readable(file, MAX_FILE_BYTES, Some(named))?;
     let unreadable = |error: &dyn std::fmt::Display| {
-        text::unreadable(file, Some(named), format_args!("cannot be read as an image: {error}"))
+        input::unreadable(file, Some(named), format_args!("cannot be read as an image: {error}"))
     };
     let mut reader = ImageReader::open(file)
         .and_then(ImageReader::with_guessed_format)
@@ -60,7 +61,7 @@ fn read(file: &Path, named: &Reference) -> Result<Texture, Diagnostic> {
     if reader.format() == Some(ImageFormat::Jpeg)
         && !jpeg_has_an_end(file).map_err(|error| unreadable(&error))?
     {
-        return Err(unreadable(&"the JPEG data end too early"));
+        return Err(unreadable(&"the JPEG data are truncated"));
     }
     let mut limits = Limits::default();
     limits.max_image_width = Some(MAX_SIDE);
@@ -76,12 +77,12 @@ fn read(file: &Path, named: &Reference) -> Result<Texture, Diagnostic> {
     Ok(Texture { width, height, texels })
 }
 
-/// True if the marker that ends a JPEG image stands near the end of the file.
+/// True if the end marker of a JPEG image is near the end of the file.
 ///
-/// The decoder fills up what is missing with grey and says nothing.
+/// The decoder silently fills truncated images with grey.
 fn jpeg_has_an_end(file: &Path) -> std::io::Result<bool> {
     const MARKER: [u8; 2] = [0xff, 0xd9];
-    // Some cameras and programs append zeros or a few bytes of their own.
+    // Some cameras and programs append zeros or a few bytes.
     const TAIL: u64 = 4096;
     let mut file = BufReader::new(File::open(file)?);
     let length = file.seek(SeekFrom::End(0))?;

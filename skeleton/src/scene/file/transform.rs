@@ -1,4 +1,4 @@
-//! Where a mesh is put: transforms of a scene file, in double precision.
+//! Transforms of meshes, in double precision.
 
 use std::fmt;
 
@@ -13,26 +13,27 @@ use super::checks::{Number, Vector, mapping};
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Step {
-    /// By one factor, or by three along the axes.
+    /// Scaling by one factor, or by three along the axes.
     Scale(Scale),
-    /// About an axis through the origin, counter-clockwise seen from its tip.
+    /// Rotation about an axis through the origin, counter-clockwise seen from its tip.
     Rotate(Rotation),
-    /// By an offset.
+    /// Translation by an offset.
     Translate(Vector),
-    /// By an affine matrix for column vectors, written row by row.
+    /// An affine matrix for column vectors, in row-major order.
     Matrix(Matrix),
 }
 
-/// Applies the steps in the order given; an error says why the result is of no use.
+/// Composes the steps, applied in the given order.
+///
+/// # Errors
+/// If the result is not finite or singular.
 pub(super) fn compose(steps: &[Step]) -> Result<DAffine3, String> {
     let whole = steps.iter().fold(DAffine3::IDENTITY, |before, step| step.affine() * before);
     if !whole.is_finite() {
-        return Err("the transform has numbers too large to compute with".into());
+        return Err("the transform exceeds the range of double precision".into());
     }
     if is_singular(whole.matrix3) {
-        return Err(
-            "the transform is singular: it flattens the mesh, so normals would have no meaning".into()
-        );
+        return Err("the transform is singular: it flattens the mesh".into());
     }
     Ok(whole)
 }
@@ -48,12 +49,11 @@ impl Step {
     }
 }
 
-/// True if the volume that the columns span is, up to rounding, nothing compared to that of a box with their
-/// lengths.
+/// True if the volume spanned by the columns is zero, up to rounding, relative to that of a box with their lengths.
 fn is_singular(matrix: DMat3) -> bool {
     let lengths = matrix.x_axis.length() * matrix.y_axis.length() * matrix.z_axis.length();
     let volume = matrix.determinant().abs();
-    // Numbers so large or so small that their product is not a usable number cannot be inverted either.
+    // If the product overflows or underflows, the matrix cannot be inverted either.
     !volume.is_normal() || volume <= 1e-12 * lengths
 }
 
@@ -140,11 +140,11 @@ impl TryFrom<[Number; 16]> for Matrix {
     }
 }
 
-/// A transform in the form that vertices need it.
+/// A transform of positions and normals.
 pub(super) struct Placement {
     affine: DAffine3,
     normals: DMat3,
-    /// The transform mirrors: what ran counter-clockwise now runs clockwise.
+    /// True if the transform includes a reflection, which reverses orientations.
     pub(super) mirrors: bool,
 }
 
@@ -155,16 +155,14 @@ impl Placement {
         Self { affine, normals, mirrors: affine.matrix3.determinant() < 0.0 }
     }
 
-    /// Takes a position to world space, with a single rounding at the end.
+    /// Transforms a position to world space, rounded once.
     pub(super) fn position(&self, position: Vec3) -> Vec3 {
         self.affine.transform_point3(position.as_dvec3()).as_vec3()
     }
 
-    /// Takes a normal of any length to world space, of unit length there; none if it has no direction.
-    ///
-    /// Normals transform by the inverse transpose, which keeps them perpendicular to the surface.
+    /// Transforms a normal of any length to a unit normal in world space, by the inverse transpose; `None` for length zero.
     pub(super) fn normal(&self, normal: Vec3) -> Option<Vec3> {
-        // Normalised first: the square of a very small one would vanish.
+        // Normalized first: the square of a very small vector underflows.
         let normal = normal.as_dvec3().try_normalize()?;
         (self.normals * normal).try_normalize().map(|normal| normal.as_vec3())
     }

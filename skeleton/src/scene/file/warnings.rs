@@ -1,11 +1,11 @@
-//! Warnings, each given once.
+//! Warnings without duplicates.
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use crate::scene::Diagnostic;
+use crate::diagnostic::Diagnostic;
 
-/// What there is to say about files that could be read nevertheless.
+/// Warnings about input files.
 #[derive(Default)]
 pub(super) struct Warnings {
     warnings: Vec<Diagnostic>,
@@ -13,20 +13,20 @@ pub(super) struct Warnings {
 }
 
 impl Warnings {
-    /// Adds a warning, unless the same one is there already: a file may be read twice.
+    /// Adds a warning unless it is a duplicate: a file may be read twice.
     pub(super) fn add(&mut self, warning: Diagnostic) {
         let topic = format!("{:?} {}", warning.line, warning.message);
         self.once((&warning.file.clone(), &topic), warning);
     }
 
-    /// Adds a warning, unless there is one for this file and topic already.
+    /// Adds a warning unless there is already one for this file and topic.
     pub(super) fn once(&mut self, (file, topic): (&Path, &str), warning: Diagnostic) {
         if self.topics.insert((file.to_owned(), topic.to_owned())) {
             self.warnings.push(warning);
         }
     }
 
-    /// All warnings, in the order in which they arose.
+    /// All warnings, in the order in which they were added.
     pub(super) fn into_vec(self) -> Vec<Diagnostic> {
         self.warnings
     }

@@ -30,8 +30,8 @@ pub(super) fn picture(judged: &JudgedScene, hits: Hits, rays: u32) -> Result<Pix
     }
     Pixels::integrate(&judged.scene, rays, |ray| {
         let Some(hit) = judged.scene.intersect(ray) else { return Ok([0.0; 3]) };
-        let light = hit.light().filter(|_| hits == Hits::On);
-        let emitted = light.map_or([0.0; 3], |light| light.emission(&hit).radiance.to_array().map(f64::from));
+        let emission = hit.emission().filter(|_| hits == Hits::On);
+        let emitted = emission.map_or([0.0; 3], |emission| emission.radiance.to_array().map(f64::from));
         // A diffuse surface sends the same in every direction: f = ρ / π.
         let reflected = hit.bsdf().eval(hit.normal).to_array().map(f64::from);
         let mut radiance = emitted;

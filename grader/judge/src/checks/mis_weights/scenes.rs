@@ -7,7 +7,7 @@
 
 use std::f32::consts::TAU;
 
-use arty::math::{Frame, Rgb, Vec3, direction};
+use arty::math::{Frame, Rgb, Vec3, direction_and_distance};
 use arty::ray::Ray;
 use arty::sampler::Sampler;
 use arty::scene::{
@@ -131,7 +131,9 @@ fn attempt(plan: Plan, random: &mut Sampler) -> Configuration {
         let normal = if vertex == 0 {
             frame.to_world(Vec3::Z)
         } else {
-            (direction(way[vertex], towards).0 + direction(way[vertex], way[vertex + 1]).0).normalize()
+            (direction_and_distance(way[vertex], towards).0
+                + direction_and_distance(way[vertex], way[vertex + 1]).0)
+                .normalize()
         };
         let corners = builder.add_around(way[vertex], normal, 0.05 * d);
         let cos = front_normal(corners).dot(exact_direction(way[vertex], towards).0).abs();
@@ -163,7 +165,7 @@ fn attempt(plan: Plan, random: &mut Sampler) -> Configuration {
         bsdfs: bsdfs.clone(),
         lights: scripts.clone(),
         origin,
-        direction: direction(origin, aim).0,
+        direction: direction_and_distance(origin, aim).0,
     };
     Configuration {
         light_side: scripted(builder),
@@ -204,9 +206,9 @@ fn open_ways(scripted: &ScriptedScene, vertices: usize) -> Option<(usize, bool)>
         let target = scripted.bsdfs[vertex]?.target;
         let seen =
             scripted.lights.iter().flatten().filter(|light| !scene.occluded(&hit, light.point)).count();
-        ray = hit.spawn(direction(hit.point, target).0);
+        ray = hit.spawn(direction_and_distance(hit.point, target).0);
         if vertex == 0 {
-            return Some((seen, scene.intersect(&ray).is_some_and(|next| next.light().is_some())));
+            return Some((seen, scene.intersect(&ray).is_some_and(|next| next.emission().is_some())));
         }
         let next = scene.intersect(&ray)?;
         if seen > 0 || (next.point - target).length() > 1e-3 * (target - hit.point).length() {
@@ -234,7 +236,7 @@ impl Builder {
 
     /// Puts something black half way between two points.
     fn block(&mut self, from: Vec3, to: Vec3, radius: f32) {
-        self.add_around(0.5 * (from + to), direction(from, to).0, radius);
+        self.add_around(0.5 * (from + to), direction_and_distance(from, to).0, radius);
     }
 
     fn finish(self, vertices: usize, lights: &[[Vec3; 3]]) -> SceneDescription {

@@ -1,6 +1,6 @@
 //! Rays inside of a closed mesh: how many get out of it, and how many hit what they start from.
 
-use arty::math::{Vec3, direction};
+use arty::math::{Vec3, direction_and_distance};
 use arty::ray::Ray;
 use arty::sampler::Sampler;
 use arty::scene::{Scene, SceneDescription};
@@ -138,7 +138,7 @@ fn follow(scene: &Scene, middle: Vec3, seed: u64, path: u64) -> Counts {
             return counts;
         }
         counts.shadows += u64::from(scene.occluded(&hit, next.point));
-        let (outwards, distance) = direction(hit.point, next.point);
+        let (outwards, distance) = direction_and_distance(hit.point, next.point);
         let beyond = next.point + 0.5 * distance * outwards;
         // A point that coordinates can hardly tell from the face is taken to lie on it: see `Scene::occluded`.
         let height = 0.5 * distance * outwards.dot(next.geometric_normal).abs();

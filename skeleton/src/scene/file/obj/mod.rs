@@ -1,4 +1,4 @@
-//! OBJ: triangles and polygons.
+//! OBJ files.
 
 mod numbers;
 mod outline;
@@ -9,15 +9,17 @@ use glam::{Vec2, Vec3};
 
 use self::outline::{Outline, Parts};
 use super::materials::Materials;
-use super::text::{self, Reference};
+use super::text;
 use super::transform::Placement;
 use super::warnings::Warnings;
-use crate::scene::{Diagnostic, Mesh, MeshTriangle};
+use crate::diagnostic::Diagnostic;
+use crate::input::{self, Reference};
+use crate::scene::{Mesh, MeshTriangle};
 
-/// Enough for some ten million triangles; more would not fit in memory once it is read.
+/// Enough for some ten million triangles; more would not fit into memory.
 const MAX_BYTES: u64 = 1 << 30;
 
-/// Reads an OBJ file and puts its vertices into world space.
+/// Reads an OBJ file and transforms its vertices to world space.
 pub(super) fn read(
     file: &Path,
     named: &Reference,
@@ -25,7 +27,7 @@ pub(super) fn read(
     materials: &mut Materials,
     warnings: &mut Warnings,
 ) -> Result<Mesh, Diagnostic> {
-    let text = text::read(file, MAX_BYTES, Some(named))?;
+    let text = input::read(file, MAX_BYTES, Some(named))?;
     let text = text::join_continued_lines(&text);
     let outline = Outline::new(file, &text, warnings)?;
     let mesh = numbers_of(file, &text, &outline)?;
@@ -34,12 +36,12 @@ pub(super) fn read(
     let zero_normals = warn_of_zero_normals(file, &text, &mesh, placement, warnings);
     let positions = triples(&mesh.positions).map(|position| placement.position(position)).collect::<Vec<_>>();
     if !positions.iter().all(|position| position.is_finite()) {
-        let problem = "the transform takes its vertices too far away to be represented";
-        return Err(text::unreadable(file, Some(named), problem));
+        let problem = "the transform moves vertices beyond the range of single precision";
+        return Err(input::unreadable(file, Some(named), problem));
     }
     Ok(Mesh {
         positions,
-        // A normal without a direction is not referred to; anything of unit length can hold its place.
+        // A normal of length zero is not referred to; any unit vector will do.
         normals: triples(&mesh.normals).map(|normal| placement.normal(normal).unwrap_or(Vec3::Z)).collect(),
         uvs: mesh.texcoords.chunks_exact(2).map(Vec2::from_slice).collect(),
         triangles: triangles(&mesh, &outline, &materials, placement, &zero_normals),
@@ -50,7 +52,7 @@ fn triples(values: &[f32]) -> impl Iterator<Item = Vec3> {
     values.chunks_exact(3).map(Vec3::from_slice)
 }
 
-/// Has `tobj` read the numbers, and makes sure that they are finite.
+/// Reads the numbers with `tobj` and checks that they are finite.
 fn numbers_of(file: &Path, text: &str, outline: &Outline<'_>) -> Result<tobj::Mesh, Diagnostic> {
     let options = tobj::LoadOptions { triangulate: true, ..tobj::LoadOptions::default() };
     let no_materials = |_: &Path| Err(tobj::LoadError::GenericFailure);
@@ -59,16 +61,16 @@ fn numbers_of(file: &Path, text: &str, outline: &Outline<'_>) -> Result<tobj::Me
     };
     let (models, _) = tobj::load_obj_buf(&mut Parts::new(text, &outline.geometry), &options, no_materials)
         .map_err(|error| blame(format!("cannot be read: {error}")))?;
-    // Names of objects and materials are not passed on to `tobj`, so there is nothing to split a mesh at.
+    // Names of objects and materials are not passed to `tobj`, so there is a single mesh.
     let mesh = models.into_iter().next().map(|model| model.mesh).unwrap_or_default();
     let finite = |values: &[f32]| values.iter().all(|value| value.is_finite());
     if !(finite(&mesh.positions) && finite(&mesh.texcoords) && finite(&mesh.normals)) {
-        return Err(blame("has numbers that are not finite".into()));
+        return Err(blame("contains numbers that are not finite".into()));
     }
     let corners = 3 * outline.triangles;
     let complete = |indices: &[u32]| indices.is_empty() || indices.len() == corners;
     if mesh.indices.len() != corners || !complete(&mesh.texcoord_indices) || !complete(&mesh.normal_indices) {
-        return Err(Diagnostic::about(file, "has faces that cannot be cut into triangles"));
+        return Err(Diagnostic::about(file, "contains faces that cannot be triangulated"));
     }
     Ok(mesh)
 }
@@ -94,17 +96,14 @@ fn materials_of_runs(
         .map(|run| match run.material {
             Some((line, name)) if !libraries.is_empty() => {
                 materials.find(&libraries, name, warnings)?.ok_or_else(|| {
-                    let message = format!("there is no material `{name}` in {}", listed(&libraries));
+                    let message = format!("no material `{name}` in {}", listed(&libraries));
                     Diagnostic::at(file, line, message)
                 })
             }
             _ => {
-                let why = if libraries.is_empty() {
-                    "there is no `mtllib`"
-                } else {
-                    "there are faces before any `usemtl`"
-                };
-                let message = format!("{why}, so a grey diffuse material is used");
+                let why =
+                    if libraries.is_empty() { "no `mtllib`" } else { "faces before the first `usemtl`" };
+                let message = format!("{why}: using a grey diffuse material");
                 warnings.once((file, "default material"), Diagnostic::about(file, message));
                 Ok(materials.default_material())
             }
@@ -112,7 +111,7 @@ fn materials_of_runs(
         .collect()
 }
 
-/// The files that `mtllib` names: one whose name may have spaces, or several with spaces between them.
+/// The files named by `mtllib`: a single name, which may contain spaces, or several names separated by spaces.
 fn library_paths(file: &Path, names: &str) -> Vec<PathBuf> {
     let whole = text::relative_to(file, names);
     let several: Vec<_> = names.split_ascii_whitespace().map(|name| text::relative_to(file, name)).collect();
@@ -123,7 +122,7 @@ fn listed(paths: &[PathBuf]) -> String {
     paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join(", ")
 }
 
-/// Says which normals have no direction, and warns if there are any.
+/// For each normal, whether its length is zero. Warns if there are any.
 fn warn_of_zero_normals(
     file: &Path,
     text: &str,
@@ -134,13 +133,13 @@ fn warn_of_zero_normals(
     let zero: Vec<bool> = triples(&mesh.normals).map(|normal| placement.normal(normal).is_none()).collect();
     let count = zero.iter().filter(|zero| **zero).count();
     if count > 0 {
-        let message = format!("{count} normals have length zero; triangles that use them are shaded flat");
+        let message = format!("normals of length zero: {count}; their triangles are shaded flat");
         warnings.add(Diagnostic { file: file.to_owned(), line: numbers::first_zero_normal(text), message });
     }
     zero
 }
 
-/// Puts together what `tobj` and the outline know about each triangle.
+/// Combines the data from `tobj` and the outline for each triangle.
 fn triangles(
     mesh: &tobj::Mesh,
     outline: &Outline<'_>,
@@ -148,7 +147,7 @@ fn triangles(
     placement: &Placement,
     zero_normals: &[bool],
 ) -> Vec<MeshTriangle> {
-    // A mirror makes corners run the other way round, seen from outside; so does this swap.
+    // A reflection reverses the orientation; swapping two corners restores it.
     let corner = |indices: &[u32], triangle: usize| {
         let [a, b, c] = [0, 1, 2].map(|corner| indices[3 * triangle + corner]);
         if placement.mirrors { [a, c, b] } else { [a, b, c] }

@@ -1,12 +1,12 @@
-//! The numbers of `v`, `vt` and `vn`: `tobj` reads them, this says what is wrong with them.
+//! Diagnostics for the numbers of `v`, `vt` and `vn`, which `tobj` reads.
 
 use std::path::Path;
 
 use super::outline::shown;
-use crate::scene::Diagnostic;
+use crate::diagnostic::Diagnostic;
 use crate::scene::file::text::{Statement, statements};
 
-/// How many numbers may follow `keyword`.
+/// The permitted numbers of arguments of a keyword, and their description.
 fn expected_counts(keyword: &str) -> (&'static [usize], &'static str) {
     match keyword {
         "v" => (&[3, 4, 6], "3 numbers (or 4 with a weight, or 6 with a colour)"),
@@ -15,7 +15,7 @@ fn expected_counts(keyword: &str) -> (&'static [usize], &'static str) {
     }
 }
 
-/// A quick look: false if [`check`] would find the count of the numbers wrong, or a letter in them.
+/// A quick check: false if the number of arguments is wrong or they contain unexpected characters.
 pub(super) fn look_right(statement: &Statement<'_>) -> bool {
     let (mut words, mut odd, mut after_space) = (0, false, true);
     for byte in statement.arguments.bytes() {
@@ -27,7 +27,10 @@ pub(super) fn look_right(statement: &Statement<'_>) -> bool {
     !odd && expected_counts(statement.keyword).0.contains(&words)
 }
 
-/// The slow but thorough check; an error says what is wrong.
+/// The thorough but slow check.
+///
+/// # Errors
+/// What is wrong.
 pub(super) fn check(statement: &Statement<'_>) -> Result<(), String> {
     let keyword = statement.keyword;
     let (counts, expected) = expected_counts(keyword);
@@ -36,22 +39,24 @@ pub(super) fn check(statement: &Statement<'_>) -> Result<(), String> {
         match word.parse::<f32>() {
             Ok(value) if value.is_finite() => values.push(value),
             Ok(_) => {
-                return Err(format!("`{keyword}` has the number `{}`, which is not finite", shown(word)));
+                return Err(format!("`{keyword}`: the number `{}` is not finite", shown(word)));
             }
-            Err(_) => return Err(format!("`{keyword}` wants {expected}, but `{}` is none", shown(word))),
+            Err(_) => {
+                return Err(format!("`{keyword}` needs {expected}, but `{}` is not a number", shown(word)));
+            }
         }
     }
     if !counts.contains(&values.len()) {
-        return Err(format!("`{keyword}` wants {expected}, but has {}", values.len()));
+        return Err(format!("`{keyword}` needs {expected}, but has {}", values.len()));
     }
     if keyword == "v" && values.len() == 4 && values[..3].iter().any(|value| !(value / values[3]).is_finite())
     {
-        return Err(format!("the weight {} of the vertex leads to infinite coordinates", values[3]));
+        return Err(format!("weight {} leads to infinite coordinates", values[3]));
     }
     Ok(())
 }
 
-/// Finds the first line that is to blame for `tobj`'s being unable to read the numbers of a file.
+/// The first line with numbers that `tobj` cannot read.
 pub(super) fn first_wrong_line(file: &Path, text: &str) -> Option<Diagnostic> {
     let has_numbers = |statement: &Statement<'_>| matches!(statement.keyword, "v" | "vt" | "vn");
     let wrong = statements(text).filter(has_numbers).find_map(|statement| {
@@ -63,7 +68,7 @@ pub(super) fn first_wrong_line(file: &Path, text: &str) -> Option<Diagnostic> {
         let mut vertices = statements(text).filter(|statement| statement.keyword == "v");
         let first = has_colour(&vertices.next()?);
         let other = vertices.find(|statement| has_colour(statement) != first)?;
-        Some(Diagnostic::at(file, other.line, "either every vertex must have a colour or none"))
+        Some(Diagnostic::at(file, other.line, "either all vertices or none must have a colour"))
     })
 }
 

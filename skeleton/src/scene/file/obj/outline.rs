@@ -1,45 +1,45 @@
-//! A first pass over an OBJ file: everything but its numbers.
+//! A first pass over an OBJ file: everything except the numbers.
 //!
-//! `tobj` reads the numbers, but is silent about much: it makes up normals and texture coordinates for faces
-//! that have none, takes lines for faces and unknown statements for comments, and knows no line numbers. This
-//! pass checks the statements and the indices, notes which triangles have what, and picks the lines for `tobj`.
+//! `tobj` reads the numbers, but it invents normals and texture coordinates for faces without them, treats lines as faces
+//! and unknown statements as comments, and reports no line numbers. This pass checks statements and indices, records which
+//! triangles have which attributes, and selects the lines for `tobj`.
 
 use std::io::{self, BufRead, Read};
 use std::ops::Range;
 use std::path::Path;
 
 use super::numbers;
-use crate::scene::Diagnostic;
+use crate::diagnostic::Diagnostic;
 use crate::scene::file::text::{Statement, statements};
 use crate::scene::file::warnings::Warnings;
 
-/// What an OBJ file is made of.
+/// The structure of an OBJ file.
 #[derive(Default)]
 pub(super) struct Outline<'a> {
-    /// Where the text has statements `v`, `vt`, `vn` and `f`, without comments; neighbours make one range.
+    /// Byte ranges of the statements `v`, `vt`, `vn` and `f` without comments; adjacent ones are merged.
     pub(super) geometry: Vec<Range<usize>>,
-    /// Runs of triangles that are alike, in the order of the file.
+    /// Runs of similar triangles, in the order of the file.
     pub(super) runs: Vec<Run<'a>>,
-    /// How many triangles there are once polygons are cut into fans.
+    /// Number of triangles after triangulation.
     pub(super) triangles: usize,
-    /// The arguments of `mtllib`, with their lines.
+    /// Lines and arguments of `mtllib`.
     pub(super) libraries: Vec<(usize, &'a str)>,
-    /// How many `v`, `vt` and `vn` there are.
+    /// Numbers of `v`, `vt` and `vn`.
     counts: [usize; 3],
-    /// Indices that were greater than the counts when they were met.
+    /// Indices beyond the counts at their line, to be checked at the end.
     forward: Vec<ForwardIndex>,
 }
 
-/// Triangles one after the other that have the same material and the same kinds of indices.
+/// Consecutive triangles with the same material and the same kinds of indices.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Run<'a> {
-    /// The first of them; the run ends where the next one starts.
+    /// Index of the first triangle; the run ends where the next one starts.
     pub(super) first: usize,
-    /// The name after `usemtl`, and its line.
+    /// Line and argument of `usemtl`.
     pub(super) material: Option<(usize, &'a str)>,
-    /// They have indices of texture coordinates.
+    /// True if they have texture coordinates.
     pub(super) uvs: bool,
-    /// They have indices of normals.
+    /// True if they have normals.
     pub(super) normals: bool,
 }
 
@@ -49,14 +49,14 @@ struct ForwardIndex {
     index: usize,
 }
 
-/// What the three parts of a corner, as in `1/2/3`, refer to.
+/// The three parts of a corner such as `1/2/3`.
 const KINDS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 
-/// Statements that say nothing about the look of a mesh.
+/// Statements that do not affect the image.
 const HARMLESS: [&str; 7] = ["o", "g", "s", "mg", "bevel", "c_interp", "d_interp"];
 
-/// Statements of the format that are left out although they say something: other primitives than polygons,
-/// free-form surfaces, and what the format's first programs could do.
+/// Statements of the format that are ignored with a warning: primitives other than polygons, free-form surfaces, and
+/// features of the format's original programs.
 #[rustfmt::skip]
 const UNSUPPORTED: [&str; 32] = [
     "p", "l", "vp", "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim", "hole", "scrv",
@@ -65,7 +65,7 @@ const UNSUPPORTED: [&str; 32] = [
 ];
 
 impl<'a> Outline<'a> {
-    /// Goes through the `text` of `file`.
+    /// Scans the `text` of `file`.
     pub(super) fn new(file: &Path, text: &'a str, warnings: &mut Warnings) -> Result<Self, Diagnostic> {
         let mut outline = Self::default();
         let mut material = None;
@@ -77,11 +77,11 @@ impl<'a> Outline<'a> {
                 "vn" => outline.vertex_data(2, &statement).map_err(at)?,
                 "f" => outline.face(&statement, material).map_err(at)?,
                 "usemtl" if statement.arguments.is_empty() => {
-                    return Err(at("`usemtl` must be followed by the name of a material".into()));
+                    return Err(at("`usemtl` needs the name of a material".into()));
                 }
                 "usemtl" => material = Some((statement.line, statement.arguments)),
                 "mtllib" if statement.arguments.is_empty() => {
-                    return Err(at("`mtllib` must be followed by the name of an MTL file".into()));
+                    return Err(at("`mtllib` needs the name of an MTL file".into()));
                 }
                 "mtllib" => outline.libraries.push((statement.line, statement.arguments)),
                 keyword if HARMLESS.contains(&keyword) => {}
@@ -101,7 +101,7 @@ impl<'a> Outline<'a> {
         }
     }
 
-    /// Takes note of a `v`, `vt` or `vn`.
+    /// Adds a `v`, `vt` or `vn`.
     fn vertex_data(&mut self, kind: usize, statement: &Statement<'a>) -> Result<(), String> {
         if !numbers::look_right(statement) {
             numbers::check(statement)?;
@@ -111,26 +111,26 @@ impl<'a> Outline<'a> {
         Ok(())
     }
 
-    /// Checks a face and takes note of it.
+    /// Checks and adds a face.
     fn face(&mut self, statement: &Statement<'a>, material: Option<(usize, &'a str)>) -> Result<(), String> {
         let mut corners = 0;
         let mut form = (false, false);
         for corner in statement.uncommented().split_ascii_whitespace() {
             let its_form = self.corner(corner, statement.line)?;
             if corners > 0 && its_form != form {
-                return Err("the corners of a face must all have the same parts: `v`, `v/vt`, `v//vn` or \
-                            `v/vt/vn`"
-                    .into());
+                return Err(
+                    "all corners of a face must have the same form: `v`, `v/vt`, `v//vn` or `v/vt/vn`".into(),
+                );
             }
             form = its_form;
             corners += 1;
         }
         if corners < 3 {
-            return Err(format!("a face must have at least 3 corners, but this has {corners}"));
+            return Err(format!("a face needs at least 3 corners, but has {corners}"));
         }
         let run = Run { first: self.triangles, material, uvs: form.0, normals: form.1 };
         match self.runs.last() {
-            Some(last) if last.goes_on_with(&run) => {}
+            Some(last) if last.continues_with(&run) => {}
             _ => self.runs.push(run),
         }
         self.triangles += corners - 2;
@@ -138,18 +138,18 @@ impl<'a> Outline<'a> {
         Ok(())
     }
 
-    /// Checks one corner of a face; says whether it has a texture coordinate and whether it has a normal.
+    /// Checks a corner of a face. Returns whether it has a texture coordinate and whether it has a normal.
     fn corner(&mut self, corner: &str, line: usize) -> Result<(bool, bool), String> {
         let mut has = [false; 3];
         for (kind, part) in corner.split('/').enumerate() {
             if kind >= has.len() {
-                return Err(format!("`{}` has more than the three parts `v/vt/vn`", shown(corner)));
+                return Err(format!("`{}` has more than three parts (`v/vt/vn`)", shown(corner)));
             }
             if part.is_empty() {
                 continue;
             }
             let index: i64 = part.parse().map_err(|_| {
-                format!("`{}` is not a corner of a face; an index must be a whole number", shown(corner))
+                format!("`{}` is not a corner of a face: indices must be whole numbers", shown(corner))
             })?;
             has[kind] = true;
             let count = self.counts[kind];
@@ -159,18 +159,18 @@ impl<'a> Outline<'a> {
                     self.forward.push(ForwardIndex { line, kind, index });
                 }
             } else if index == 0 {
-                return Err(format!("`{}` has the index 0, but indices start from 1", shown(corner)));
+                return Err(format!("`{}`: indices start at 1", shown(corner)));
             } else if index.unsigned_abs() > count as u64 {
                 return Err(out_of_range(kind, index, count));
             }
         }
         if !has[0] {
-            return Err(format!("the corner `{}` has no vertex", shown(corner)));
+            return Err(format!("corner `{}` has no vertex", shown(corner)));
         }
         Ok((has[1], has[2]))
     }
 
-    /// Leaves a statement to `tobj`, but not a comment at its end.
+    /// Passes a statement to `tobj`, without its comment.
     fn push_geometry(&mut self, statement: &Statement<'a>) {
         let Statement { start, text, .. } = *statement;
         let end = start + text.len();
@@ -187,7 +187,7 @@ impl<'a> Outline<'a> {
 }
 
 impl Run<'_> {
-    fn goes_on_with(&self, next: &Self) -> bool {
+    fn continues_with(&self, next: &Self) -> bool {
         self.material == next.material && self.uvs == next.uvs && self.normals == next.normals
     }
 }
@@ -195,13 +195,13 @@ impl Run<'_> {
 fn out_of_range(kind: usize, index: i64, count: usize) -> String {
     let kind = KINDS[kind];
     if index < 0 {
-        format!("{kind} {index} does not exist: there are {count} of this kind before this line")
+        format!("{kind} {index} does not exist: only {count} are defined before this line")
     } else {
-        format!("{kind} {index} does not exist: the file has {count} of this kind")
+        format!("{kind} {index} does not exist: the file has only {count}")
     }
 }
 
-/// The beginning of a word, without control characters, so that garbage does not upset the terminal.
+/// The beginning of a word without control characters, safe to print on a terminal.
 pub(super) fn shown(word: &str) -> String {
     const LONGEST: usize = 40;
     let printable = |character: char| if character.is_control() { '\u{fffd}' } else { character };
@@ -212,10 +212,10 @@ pub(super) fn shown(word: &str) -> String {
     start
 }
 
-/// Lets `tobj` read parts of a text one after the other, without a copy.
+/// A reader over parts of a text, without a copy.
 pub(super) struct Parts<'a> {
     text: &'a [u8],
-    /// What is left of the current part.
+    /// The rest of the current part.
     current: Range<usize>,
     rest: std::slice::Iter<'a, Range<usize>>,
 }

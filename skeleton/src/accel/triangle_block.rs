@@ -18,14 +18,14 @@ use super::ray::PreparedRay;
 /// Up to eight triangles, as a structure of arrays. Unused lanes are not numbers and so never hit.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
-pub(super) struct Packet {
+pub(super) struct TriangleBlock {
     /// Coordinates by corner and axis.
     pub(super) corners: [[Row; 3]; 3],
     /// The triangles' indices in the list that the structure was built from.
     pub(super) primitives: Indices,
 }
 
-/// The planes of a packet's triangles, for close calls: apart from the packet, which is read far more often.
+/// The planes of a block's triangles, for close calls: apart from the block, which is read far more often.
 pub(super) type Planes = [Plane; 8];
 
 /// The index of no triangle.
@@ -60,8 +60,8 @@ struct Crossing<V> {
     depth: V,
 }
 
-impl Packet {
-    /// A packet without triangles.
+impl TriangleBlock {
+    /// A block without triangles.
     pub(super) const EMPTY: Self =
         Self { corners: [[Row([f32::NAN; 8]); 3]; 3], primitives: Indices([NO_PRIMITIVE; 8]) };
 
@@ -94,7 +94,7 @@ impl Packet {
         exact::separates(&planes[lane], self.first_corner(lane), Vec3::from(ray.origin), target)
     }
 
-    /// Replaces `nearest` by the nearest hit in this packet if that is nearer.
+    /// Replaces `nearest` by the nearest hit in this block if that is nearer.
     #[inline(always)]
     pub(super) fn intersect<V: Lanes>(&self, planes: &Planes, ray: &PreparedRay, nearest: &mut Nearest) {
         let Some(crossing) = self.cross::<V>(ray) else { return };
@@ -175,7 +175,7 @@ impl Packet {
         let weight_sum = u + v + w;
         // None is negative, or none is positive.
         let inside =
-            zero.le(u.min(v).min(w).max(zero - u.max(v).max(w))) & !V::equal(&self.primitives, ray.leaves);
+            zero.le(u.min(v).min(w).max(zero - u.max(v).max(w))) & !V::equal(&self.primitives, ray.exclude);
         if inside == 0 {
             return None;
         }

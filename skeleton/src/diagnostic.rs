@@ -1,18 +1,18 @@
-//! What is wrong with an input file, and where.
+//! Diagnostics about input files.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// One thing to say about an input file: an error if loading stopped at it, else a warning.
+/// An error or a warning about an input file.
 ///
-/// Shown as `file:line: message`, which editors and terminals turn into a link.
+/// Displayed as `file:line: message`, which editors and terminals turn into a link.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// The file it is about.
+    /// The file.
     pub file: PathBuf,
-    /// The line in that file, counted from 1, where one line is to blame.
+    /// The line, counted from 1; `None` if the message is about the whole file.
     pub line: Option<usize>,
-    /// What is wrong, and what was expected instead.
+    /// What is wrong, and what was expected.
     pub message: String,
 }
 
@@ -22,7 +22,7 @@ impl Diagnostic {
         Self { file: file.to_owned(), line: Some(line), message: message.into() }
     }
 
-    /// A diagnostic about a file as a whole.
+    /// A diagnostic about a whole file.
     pub fn about(file: &Path, message: impl Into<String>) -> Self {
         Self { file: file.to_owned(), line: None, message: message.into() }
     }

@@ -1,0 +1,88 @@
+//! Stands in for `probe` in every build without that feature: the same names, zero-sized and without effect.
+//!
+//! Scripts are types without values, so `Option<ScriptedLight>` takes no space and is always `None`.
+
+use crate::math::{Rgb, Vec3};
+
+/// No BSDF is scripted in this build.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum ScriptedBsdf {}
+
+/// No light is scripted in this build.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum ScriptedLight {}
+
+/// Every way of finding light is enabled.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Switches;
+
+/// A call that is not recorded.
+pub(crate) struct Call;
+
+impl ScriptedBsdf {
+    pub(crate) fn target(&self) -> Vec3 {
+        match *self {}
+    }
+
+    pub(crate) fn f(&self) -> Rgb {
+        match *self {}
+    }
+
+    pub(crate) fn pdf(&self) -> f32 {
+        match *self {}
+    }
+
+    pub(crate) fn is_delta(&self) -> bool {
+        match *self {}
+    }
+}
+
+impl ScriptedLight {
+    pub(crate) fn point(&self) -> Vec3 {
+        match *self {}
+    }
+
+    pub(crate) fn pdf_area(&self) -> f32 {
+        match *self {}
+    }
+}
+
+impl Switches {
+    pub(crate) const ALL: Self = Self;
+
+    #[inline]
+    pub(crate) fn emission_on_hit(self) -> bool {
+        true
+    }
+}
+
+impl Call {
+    pub(crate) fn new(_: &'static str) -> Self {
+        Self
+    }
+
+    pub(crate) fn given<T>(self, _: &'static str, _: T) -> Self {
+        self
+    }
+
+    pub(crate) fn got<T>(self, _: &'static str, _: T) -> Self {
+        self
+    }
+}
+
+#[inline]
+pub(crate) fn record(_: impl FnOnce() -> Call) {}
+
+#[inline]
+pub(crate) fn count_ray() {}
+
+#[inline]
+pub(crate) fn count_shadow_ray() {}
+
+#[inline]
+pub(crate) fn count_light_sample() {}
+
+#[inline]
+pub(crate) fn stratified(number: f32) -> f32 {
+    number
+}
