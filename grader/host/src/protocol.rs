@@ -43,7 +43,15 @@ pub struct ReplayJob {
     pub pixel: [u32; 2],
     /// The number of the sample.
     pub sample: u64,
-    /// Which ways of finding light are enabled.
+    impl RenderJob {
+    /// A job that renders one batch for each seed, `samples` per pixel, beginning with the first sample.
+    pub fn new(scene: u32, settings: Settings, [width, height]: [u32; 2], seeds: Vec<u64>, samples: u64) -> Self {
+        let (first_sample, switches) = (0, Switches::default());
+        Self { scene, settings, width, height, seeds, first_sample, samples, switches }
+    }
+}
+
+/// Which ways of finding light are enabled.
     pub switches: Switches,
 }
 

@@ -14,4 +14,5 @@ pub mod pictures;
 pub mod plan;
 pub mod reference;
 pub mod replay;
+pub mod scenes;
 pub mod statistics;

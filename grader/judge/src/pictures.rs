@@ -4,17 +4,17 @@ use arty::image::exr::ExrFile;
 use arty::integrator::{Settings, Technique};
 use arty::sampler::batch_seed;
 use arty::scene::SceneDescription;
-use host::protocol::{RenderJob, Switches};
+use host::protocol::RenderJob;
 use rayon::prelude::*;
 
 use crate::image_error::hdr_flip;
 use harness::build::HandInProgram;
 use harness::host_process::HostProcess;
 use harness::workspace::Workspace;
+use verdict::check::{CheckKind, Reason, Verdict};
 use verdict::error::Result;
 use verdict::pictures::{Picture, THUMBNAIL_SCENE, half_bits};
-use verdict::report::{Reason, Report, Verdict};
-use verdict::rubric::CheckKind;
+use verdict::report::Report;
 
 /// The most scenes of a page: a scene takes 0.8 of 3 megabytes.
 pub const MOST: usize = 3;
@@ -50,7 +50,8 @@ pub fn pictures(
         return Ok(list);
     }
     let wrong = report.checks.iter().filter(|check| check.verdict == Verdict::Fail);
-    let wrong = wrong.filter(|check| check.check == CheckKind::MeanBias).map(|check| check.scene.as_str());
+    let wrong =
+        wrong.filter(|check| check.id.kind == CheckKind::MeanBias).map(|check| check.id.scene.as_str());
     let mut seen: Vec<&str> = Vec::new();
     for scene in TELLING.into_iter().take(1).chain(wrong).chain(TELLING) {
         if list.len() == most {
@@ -90,16 +91,13 @@ fn picture(
     };
     let mut all = Vec::new();
     for technique in [Technique::Bsdf, Technique::Nee, Technique::Mis] {
-        let job = RenderJob {
-            scene: index,
-            settings: Settings { technique, max_bounces },
-            width: width as u32,
-            height: height as u32,
-            seeds: picture.seeds.clone(),
-            first_sample: 0,
-            samples: SAMPLES,
-            switches: Switches::default(),
-        };
+        let job = RenderJob::new(
+            index,
+            Settings { technique, max_bounces },
+            [width as u32, height as u32],
+            picture.seeds.clone(),
+            SAMPLES,
+        );
         let Ok(rendered) = process.render(&job)? else { break };
         all.push((technique, rendered.batches));
     }

@@ -6,19 +6,20 @@
 //! stratified: then each light's share is exact, and a few thousand paths tell.
 
 use std::f64::consts::PI;
+use std::ops::RangeInclusive;
 
-use arty::integrator::Settings;
+use arty::integrator::Technique;
 use arty::math::{Rgb, Vec3, direction_and_distance};
 use arty::sampler::batch_seed;
-use arty::scene::{
-    CameraDescription, Defaults, LightDescription, Material, Mesh, MeshTriangle, SceneDescription, Specular,
-};
+use glam::DVec3;
 use host::protocol::{ProbeJob, ScriptedScene};
 use statrs::distribution::{ContinuousCDF, StudentsT};
-
-use super::{Bench, Stop};
-use verdict::report::{CheckResult, Reason, Verdict};
+use verdict::check::{CheckKind, Evidence, LightShares, Reason, WhyNot};
 use verdict::rubric::CheckSpec;
+
+use super::context::settings_of;
+use super::{Check, GradeContext, JobError, Observation, Outcome, Quantity, SceneWithReference};
+use crate::scenes;
 
 /// Paths in each stratified set, and such sets.
 const PATHS: u64 = 4096;
@@ -33,45 +34,65 @@ const LEVEL: f64 = 1e-6;
 const ALBEDO: f32 = 0.6;
 const POWER: f32 = 50.0;
 
-const CHANNELS: [&str; 3] = ["first", "second", "third"];
+pub(super) struct LightPick;
 
-pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult) -> Result<(), Stop> {
-    let mut process = bench.start()?;
-    let settings = Settings { technique: spec.technique, max_bounces: spec.max_bounces };
-    let scene = scene();
-    let mut means = Vec::new();
-    for set in 0..SETS {
-        let seed = batch_seed(bench.seed_of(spec), set);
-        let scenes = vec![scene.clone()];
-        let paths =
-            process.probe(&ProbeJob { settings, scenes, samples: PATHS, seed, stratified: true })??;
-        let mut mean = [0.0; 3];
-        for path in paths.iter().flatten() {
-            (0..3).for_each(|channel| mean[channel] += f64::from(path.radiance[channel]) / PATHS as f64);
-        }
-        means.push(mean);
+impl Check for LightPick {
+    fn kind(&self) -> CheckKind {
+        CheckKind::LightPick
     }
-    result.samples = SETS * PATHS;
-    let shares: Vec<Share> = (0..3).map(|channel| Share::of(&means, channel)).collect();
-    let worst = shares.iter().enumerate().max_by(|a, b| a.1.ratio.abs().total_cmp(&b.1.ratio.abs()));
-    result.effect = worst.map(|(_, share)| share.ratio);
-    let finite =
-        |(name, share): (&str, &Share)| share.ratio.is_finite().then(|| (name.to_owned(), share.ratio));
-    result.details = CHANNELS.into_iter().zip(&shares).filter_map(finite).collect();
-    let wrong = shares.iter().position(|share| !share.ratio.is_finite() || share.p_value < LEVEL);
-    (result.verdict, result.reason, result.explanation) = match wrong {
-        Some(channel) => (
-            Verdict::Fail,
-            Reason::Bias,
-            format!(
-                "of three lights the {} counts {:.4} times: it is not picked with the probability that is divided by",
-                CHANNELS[channel],
-                1.0 + shares[channel].ratio
-            ),
-        ),
-        None => (Verdict::Pass, Reason::None, "each of three lights counts once".to_owned()),
-    };
-    Ok(())
+
+    fn techniques(&self) -> &'static [Technique] {
+        &[Technique::Nee, Technique::Mis]
+    }
+
+    fn bounces(&self) -> RangeInclusive<u32> {
+        1..=1
+    }
+
+    fn applies(&self, scene: &SceneWithReference, _: &CheckSpec) -> Result<(), WhyNot> {
+        let features = scene.scene.features();
+        if features.lit_surfaces == 0 {
+            Err(WhyNot::NothingLit)
+        } else if features.area_lights + features.point_lights < 2 {
+            Err(WhyNot::OneLight)
+        } else {
+            Ok(())
+        }
+    }
+
+    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<Outcome, JobError> {
+        let mut process = context.start()?;
+        let settings = settings_of(spec);
+        let scene = scene();
+        let mut means = Vec::new();
+        for set in 0..SETS {
+            let seed = batch_seed(context.seed_of(spec), set);
+            let scenes = vec![scene.clone()];
+            let paths =
+                process.probe(&ProbeJob { settings, scenes, samples: PATHS, seed, stratified: true })??;
+            let mut mean = [0.0; 3];
+            for path in paths.iter().flatten() {
+                (0..3).for_each(|channel| mean[channel] += f64::from(path.radiance[channel]) / PATHS as f64);
+            }
+            means.push(mean);
+        }
+        let shares: [Share; 3] = std::array::from_fn(|channel| Share::of(&means, channel));
+        let wrong = shares.iter().position(|share| !share.ratio.is_finite() || share.p_value < LEVEL);
+        let evidence = LightShares {
+            excess: shares.each_ref().map(|share| Some(share.ratio).filter(|ratio| ratio.is_finite())),
+            wrong: wrong.map(|light| light as u32),
+        };
+        let reason = if wrong.is_some() { Reason::Bias } else { Reason::None };
+        Ok(Outcome::new(reason, Evidence::LightPick(evidence), SETS * PATHS))
+    }
+
+    fn observations(&self, evidence: &Evidence) -> Vec<Observation> {
+        let Evidence::LightPick(shares) = evidence else { return Vec::new() };
+        let of = |(light, excess): (u32, Option<f64>)| {
+            Some(Observation::ratio(Quantity::LightShare(light), 1.0 + excess?, 0.0))
+        };
+        (0..).zip(shares.excess).filter_map(of).collect()
+    }
 }
 
 /// How much one light counts.
@@ -117,33 +138,21 @@ fn expected(channel: usize) -> f64 {
 }
 
 fn scene() -> ScriptedScene {
-    let corner = |x: f32, z: f32| Vec3::new(x, 0.0, z);
-    let floor = Mesh {
-        positions: vec![corner(-9.0, 9.0), corner(9.0, 9.0), corner(0.0, -9.0)],
-        triangles: vec![MeshTriangle { positions: [0, 1, 2], normals: None, uvs: None, material: 0 }],
-        ..Mesh::default()
-    };
-    let light = |index: usize| {
-        let mut power = [0.0; 3];
-        power[index] = POWER;
-        LightDescription::Point { position: light(index), power: Rgb::from(power) }
-    };
     let eye = Vec3::new(0.5, 2.0, 0.7);
+    let mut scene = scenes::empty();
+    scene.camera = scenes::camera(eye.as_dvec3(), SEEN.as_dvec3(), 40.0);
+    let corner = |x: f64, z: f64| DVec3::new(x, 0.0, z);
+    let floor = [corner(-9.0, 9.0), corner(9.0, 9.0), corner(0.0, -9.0)];
+    scenes::add(&mut scene, &[floor], scenes::grey(ALBEDO, 0.0));
+    scene.lights = (0..3)
+        .map(|index| {
+            let mut power = [0.0; 3];
+            power[index] = POWER;
+            scenes::point_light(light(index), Rgb::from(power))
+        })
+        .collect();
     ScriptedScene {
-        scene: SceneDescription {
-            camera: CameraDescription { eye, center: SEEN, up: Vec3::Y, fov: 40.0 },
-            meshes: vec![floor],
-            materials: vec![Material {
-                name: "floor".to_owned(),
-                diffuse: Rgb::gray(ALBEDO),
-                diffuse_map: None,
-                specular: Specular::None,
-                emission: Rgb::BLACK,
-            }],
-            textures: Vec::new(),
-            lights: (0..3).map(light).collect(),
-            defaults: Defaults::default(),
-        },
+        scene,
         bsdfs: vec![None],
         lights: Vec::new(),
         origin: eye,

@@ -1,36 +1,58 @@
 //! **mean-bias**: are the means those of the reference image?
 
+use verdict::check::{CheckKind, Evidence, WhyNot};
+use verdict::error::Error;
+use verdict::rubric::{CheckSpec, EmissionOnHit};
+
 use super::means::{self, Picture};
-use super::{Bench, Stop};
+use super::{Check, GradeContext, JobError, Observation, Outcome, SceneWithReference};
 use crate::reference::Reference;
 use crate::statistics::bias::Expected;
-use verdict::error::Error;
-use verdict::report::CheckResult;
-use verdict::rubric::{CheckSpec, Hits};
 
-pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult) -> Result<(), Stop> {
-    let judged = bench.scene(spec);
-    let expected = expected(spec, &judged.reference)?;
-    means::run(bench, spec, &Picture::of(bench, spec, &[&judged.description], &expected), result)
+pub(super) struct MeanBias;
+
+impl Check for MeanBias {
+    fn kind(&self) -> CheckKind {
+        CheckKind::MeanBias
+    }
+
+    fn isolates_next_event_estimation(&self) -> bool {
+        true
+    }
+
+    fn applies(&self, scene: &SceneWithReference, spec: &CheckSpec) -> Result<(), WhyNot> {
+        let nothing_lit = scene.scene.features().lit_surfaces == 0;
+        if spec.emission_on_hit == EmissionOnHit::Off && nothing_lit {
+            Err(WhyNot::NothingLit)
+        } else {
+            Ok(())
+        }
+    }
+
+    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<Outcome, JobError> {
+        let scene = context.scene(spec);
+        let expected = expected(spec, &scene.reference)?;
+        let scenes = [&scene.description];
+        means::run(context, spec, &Picture::of(context, spec, &scenes, &expected), Evidence::MeanBias)
+    }
+
+    fn observations(&self, evidence: &Evidence) -> Vec<Observation> {
+        evidence.mean_test().map(Observation::of_mean).unwrap_or_default()
+    }
 }
 
-/// What the reference says.
+/// What the reference says of a check's picture.
 ///
 /// # Errors
 /// If it does not have that picture.
 pub fn expected(spec: &CheckSpec, reference: &Reference) -> Result<Expected, Error> {
-    reference
-        .views
-        .get(&spec.view())
-        .and_then(|light| light.expected(spec.technique))
-        .ok_or_else(|| {
-            Error::Input(format!(
-                "the reference of `{scene}` does not have {technique} with {bounces} bounces{hits}; make it with `cargo \
-                 grader reference {scene}`",
-                scene = spec.scene,
-                technique = spec.technique,
-                bounces = spec.max_bounces,
-                hits = if spec.hits == Hits::Off { " and hits off" } else { "" }
-            ))
-        })
+    let view = reference.views.get(&spec.view());
+    view.and_then(|view| view.expected(spec.technique)).ok_or_else(|| {
+        let CheckSpec { scene, technique, max_bounces, .. } = spec;
+        let emission = if spec.emission_on_hit == EmissionOnHit::Off { ", emission_on_hit off" } else { "" };
+        Error::Input(format!(
+            "the reference of `{scene}` has no {technique} with max_bounces {max_bounces}{emission}: run `cargo lab \
+             reference {scene}`"
+        ))
+    })
 }

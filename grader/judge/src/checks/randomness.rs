@@ -4,16 +4,16 @@
 //! it is given: then the same seed gives the same image, whatever was rendered before; another seed gives another; and
 //! no two pixels share anything.
 
-use arty::integrator::Settings;
 use arty::sampler::batch_seed;
-use host::protocol::{RenderJob, Switches};
+use host::protocol::RenderJob;
+use verdict::check::{CheckKind, Evidence, RandomNumbers, Reason};
+use verdict::rubric::CheckSpec;
 
-use super::{Bench, Stop};
+use super::context::settings_of;
+use super::{Check, GradeContext, JobError, Observation, Outcome, WrongPlace};
 use crate::reference::SIZE;
 use crate::statistics::batches::Batches;
 use crate::statistics::independence::{Dependence, dependence};
-use verdict::report::{CheckResult, Reason, Verdict};
-use verdict::rubric::CheckSpec;
 
 /// Independent renderings, and samples of each pixel in each.
 const BATCHES: u64 = 64;
@@ -22,74 +22,67 @@ const SAMPLES: u64 = 4;
 /// The level of the first look at the pixels, and of the one that confirms it with fresh seeds.
 const LEVEL: f64 = 1e-4;
 
-pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult) -> Result<(), Stop> {
-    let complaint = complaint(bench, spec, result)?;
-    (result.verdict, result.reason, result.explanation) = match complaint {
-        Some(complaint) => (Verdict::Fail, Reason::Randomness, complaint),
-        None => (
-            Verdict::Pass,
-            Reason::None,
-            "pixels, batches and seeds are independent and repeatable".to_owned(),
-        ),
-    };
-    Ok(())
+pub(super) struct Randomness;
+
+impl Check for Randomness {
+    fn kind(&self) -> CheckKind {
+        CheckKind::Randomness
+    }
+
+    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<Outcome, JobError> {
+        let mut samples = 0;
+        let numbers = find(context, spec, &mut samples)?;
+        let reason = if numbers == RandomNumbers::Independent { Reason::None } else { Reason::Randomness };
+        Ok(Outcome::new(reason, Evidence::Randomness(numbers), samples))
+    }
+
+    fn observations(&self, evidence: &Evidence) -> Vec<Observation> {
+        let Evidence::Randomness(numbers) = evidence else { return Vec::new() };
+        let place = match numbers {
+            RandomNumbers::Independent => return Vec::new(),
+            RandomNumbers::SameImage(_) => WrongPlace::SameImage,
+            RandomNumbers::NotRepeatable => WrongPlace::NotRepeatable,
+            RandomNumbers::SharedByPixels { .. } => WrongPlace::SharedByPixels,
+        };
+        vec![Observation::wrong_at(place)]
+    }
 }
 
-fn complaint(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult) -> Result<Option<String>, Stop> {
-    let seeds: Vec<u64> = (0..BATCHES).map(|batch| batch_seed(bench.seed_of(spec), batch)).collect();
-    let images = render(bench, spec, &seeds, result)?;
+fn find(context: &GradeContext<'_>, spec: &CheckSpec, samples: &mut u64) -> Result<RandomNumbers, JobError> {
+    let seeds: Vec<u64> = (0..BATCHES).map(|batch| batch_seed(context.seed_of(spec), batch)).collect();
+    let images = render(context, spec, &seeds, samples)?;
     if let Some((a, b)) = alike(&images) {
-        result.details.insert("images that are the same".to_owned(), 1.0);
-        return Ok(Some(format!(
-            "different seeds give the same image (batches {a} and {b}): the random numbers are not those of the sampler"
-        )));
+        return Ok(RandomNumbers::SameImage([a as u32, b as u32]));
     }
     // In a process of its own and in another order: nothing may be left over from what was rendered before.
     let reversed: Vec<u64> = seeds.iter().rev().copied().collect();
-    let again = render(bench, spec, &reversed, result)?;
+    let again = render(context, spec, &reversed, samples)?;
     if images.iter().ne(again.iter().rev()) {
-        result.details.insert("images that are not repeatable".to_owned(), 1.0);
-        return Ok(Some(
-            "the same seed does not give the same image twice: either the random numbers are not those of the sampler, \
-             or something is remembered from one path to the next"
-                .to_owned(),
-        ));
+        return Ok(RandomNumbers::NotRepeatable);
     }
-    let first = found(&images);
-    if first.p_value >= LEVEL {
-        return Ok(None);
+    if found(&images).p_value >= LEVEL {
+        return Ok(RandomNumbers::Independent);
     }
     let fresh: Vec<u64> = seeds.iter().map(|&seed| batch_seed(seed, 1)).collect();
-    let second = found(&render(bench, spec, &fresh, result)?);
-    Ok((second.p_value < LEVEL).then(|| {
-        result.details.insert("noise that pixels share".to_owned(), second.excess);
-        format!(
-            "pixels share their random numbers: the noise of {} is {:.1} times as large as that of independent pixels",
-            second.of, second.excess
-        )
-    }))
+    let Dependence { p_value, excess, pixels } = found(&render(context, spec, &fresh, samples)?);
+    Ok(if p_value < LEVEL {
+        RandomNumbers::SharedByPixels { excess, pixels }
+    } else {
+        RandomNumbers::Independent
+    })
 }
 
 fn render(
-    bench: &Bench<'_>,
+    context: &GradeContext<'_>,
     spec: &CheckSpec,
     seeds: &[u64],
-    result: &mut CheckResult,
-) -> Result<Vec<Vec<[f32; 3]>>, Stop> {
-    let mut process = bench.start()?;
-    let scene = process.load(&bench.scene(spec).description)??;
-    result.samples += seeds.len() as u64 * SAMPLES * u64::from(SIZE.0 * SIZE.1);
-    let rendered = process.render(&RenderJob {
-        scene,
-        settings: Settings { technique: spec.technique, max_bounces: spec.max_bounces },
-        width: SIZE.0,
-        height: SIZE.1,
-        seeds: seeds.to_vec(),
-        first_sample: 0,
-        samples: SAMPLES,
-        switches: Switches::default(),
-    })??;
-    Ok(rendered.batches)
+    samples: &mut u64,
+) -> Result<Vec<Vec<[f32; 3]>>, JobError> {
+    let mut process = context.start()?;
+    let scene = process.load(&context.scene(spec).description)??;
+    *samples += seeds.len() as u64 * SAMPLES * u64::from(SIZE.0 * SIZE.1);
+    let job = RenderJob::new(scene, settings_of(spec), [SIZE.0, SIZE.1], seeds.to_vec(), SAMPLES);
+    Ok(process.render(&job)??.batches)
 }
 
 /// Two images that are the same, bit by bit. Images without any noise are the same rightly: black ones, say.

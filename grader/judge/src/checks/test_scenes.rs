@@ -2,16 +2,16 @@
 
 use arty::scene::Scene;
 
-use super::JudgedScene;
+use super::SceneWithReference;
 use crate::reference;
 use harness::workspace::Workspace;
 
 /// A scene with its reference.
-pub(super) fn judged(name: &str) -> JudgedScene {
+pub(super) fn judged(name: &str) -> SceneWithReference {
     let workspace = Workspace::find().expect("this is the repository");
     let description =
         arty::scene::file::load(&workspace.scene_file(name)).expect("the scene is right").description;
     let reference = reference::load(&workspace.reference_file(name), name, &description)
         .expect("the reference is up to date");
-    JudgedScene { scene: Scene::new(&description), description, reference }
+    SceneWithReference { scene: Scene::new(&description), description, reference }
 }

@@ -12,63 +12,71 @@ use std::f64::consts::PI;
 use arty::math::{Frame, Vec3};
 use arty::scene::{Hit, Material, Scene, Specular};
 
-use super::means::{self, Numerics, Picture};
-use super::{Bench, JudgedScene, Stop, mean_bias};
+use verdict::check::{BounceEnergy, CheckKind, Evidence, FurnaceTest, WhyNot};
+use verdict::error::Error;
+use verdict::rubric::CheckSpec;
+
+use super::context::replay_of;
+use super::means::{self, Anomalies, Picture};
+use super::{Check, GradeContext, JobError, Observation, Outcome, Quantity, SceneWithReference, mean_bias};
 use crate::reference::SIZE;
 use crate::statistics::bias::Expected;
 use crate::statistics::sequential::{Decision, Judgement};
-use verdict::error::Error;
-use verdict::report::{CheckResult, Verdict};
-use verdict::rubric::CheckSpec;
 
-pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult) -> Result<(), Stop> {
-    let judged = bench.scene(spec);
-    let furnace = Furnace::recognise(judged)
-        .map_err(|why| Error::Input(format!("white-furnace in `{}`: {why}", spec.scene)))?;
-    let orders = furnace.orders(spec.max_bounces);
-    let noise = mean_bias::expected(spec, &judged.reference)?;
-    let scenes = [&judged.description];
-    let mut process = bench.start()?;
-    let loaded = [process.load(&judged.description)??];
-    let (mut numerics, mut judgements) = (Numerics::default(), Vec::new());
-    for &order in &orders {
-        let expected = Expected {
-            mean: furnace.picture(&judged.scene, order),
-            error: vec![[0.0; 3]; noise.mean.len()],
-            ..noise.clone()
-        };
-        let mut picture = Picture::of(bench, spec, &scenes, &expected);
-        picture.settings.max_bounces = order;
-        picture.screening_level /= orders.len() as f64;
-        picture.seed ^= u64::from(order).rotate_right(8);
-        judgements.push(picture.judge_in(&mut process, &loaded, &mut numerics)?);
+pub(super) struct WhiteFurnace;
+
+impl Check for WhiteFurnace {
+    fn kind(&self) -> CheckKind {
+        CheckKind::WhiteFurnace
     }
-    // The first bounce that is wrong tells most; without one, the one that is known least.
-    let worst = judgements
-        .iter()
-        .position(|judgement| judgement.decision == Decision::Biased)
-        .or(judgements.iter().position(|judgement| judgement.decision == Decision::Unclear))
-        .unwrap_or(judgements.len() - 1);
-    means::describe(result, &judgements[worst], spec.tolerance);
-    result.samples = judgements.iter().map(|judgement| judgement.samples).sum();
-    if orders.len() > 1 {
-        result.coefficients = furnace.coefficients(&judgements);
-        result.coefficient_margins = furnace.coefficient_margins(&judgements);
-        if result.verdict == Verdict::Fail {
-            result.explanation += &format!(
-                ", with up to {worst} bounces; light that is scattered 0, 1, … times counts {} times",
-                result.coefficients.iter().map(|c| format!("{c:.2}")).collect::<Vec<_>>().join(", ")
-            );
+
+    fn applies(&self, scene: &SceneWithReference, _: &CheckSpec) -> Result<(), WhyNot> {
+        Furnace::recognise(scene).map(drop)
+    }
+
+    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<Outcome, JobError> {
+        let scene = context.scene(spec);
+        let furnace = Furnace::recognise(scene)
+            .map_err(|why| Error::Input(format!("{}: no furnace ({why:?})", spec.id())))?;
+        let orders = furnace.orders(spec.max_bounces);
+        let noise = mean_bias::expected(spec, &scene.reference)?;
+        let scenes = [&scene.description];
+        let mut process = context.start()?;
+        let loaded = [process.load(&scene.description)??];
+        let (mut anomalies, mut judgements) = (Anomalies::default(), Vec::new());
+        for &order in &orders {
+            let expected = Expected {
+                mean: furnace.picture(&scene.scene, order),
+                error: vec![[0.0; 3]; noise.mean.len()],
+                ..noise.clone()
+            };
+            let mut picture = Picture::of(context, spec, &scenes, &expected);
+            picture.settings.max_bounces = order;
+            picture.screening_level /= orders.len() as f64;
+            picture.seed ^= u64::from(order).rotate_right(8);
+            judgements.push(picture.judge_in(&mut process, &loaded, &mut anomalies)?);
         }
+        // The first bounce that is wrong tells most; without one, the one that is known least.
+        let first = |decision| judgements.iter().position(|judgement| judgement.decision == decision);
+        let worst = first(Decision::Biased).or(first(Decision::Unclear)).unwrap_or(judgements.len() - 1);
+        let evidence = FurnaceTest {
+            test: means::mean_test(&judgements[worst], spec.tolerance),
+            max_bounces: orders[worst],
+            energy: if orders.len() > 1 { furnace.energy(&judgements) } else { Vec::new() },
+        };
+        let samples = judgements.iter().map(|judgement| judgement.samples).sum();
+        let outcome = means::conclude(&judgements[worst], Evidence::WhiteFurnace(evidence), samples);
+        // A path with fewer bounces is the beginning of one with more.
+        Ok(outcome.with(anomalies.numerics(Some(replay_of(spec)))))
     }
-    // A path with fewer bounces is the beginning of one with more.
-    numerics.enter(result, |sample| Some(bench.replay(spec, sample)));
-    Ok(())
-}
 
-/// Why a scene is no furnace; `None` if it is one.
-pub fn why_no_furnace(judged: &JudgedScene) -> Option<String> {
-    Furnace::recognise(judged).err()
+    fn observations(&self, evidence: &Evidence) -> Vec<Observation> {
+        let Evidence::WhiteFurnace(furnace) = evidence else { return Vec::new() };
+        let of = |(bounces, energy): (u32, &BounceEnergy)| {
+            Observation::ratio(Quantity::BounceEnergy(bounces), energy.relative, 0.0)
+        };
+        Observation::of_mean(&furnace.test).into_iter().chain((0..).zip(&furnace.energy).map(of)).collect()
+    }
 }
 
 /// A closed scene that emits the same everywhere.
@@ -88,13 +96,11 @@ enum Walls {
 }
 
 impl Furnace {
-    fn recognise(judged: &JudgedScene) -> Result<Self, String> {
-        let JudgedScene { description, scene, .. } = judged;
+    fn recognise(scene: &SceneWithReference) -> Result<Self, WhyNot> {
+        let SceneWithReference { description, scene, .. } = scene;
         if !scene.features().closed {
-            return Err("the camera is not enclosed: light gets lost".to_owned());
+            return Err(WhyNot::NotEnclosed);
         }
-        let no_furnace =
-            || "closed, but it does not emit the same everywhere: there is no closed form".to_owned();
         let triangles = description.meshes.iter().flat_map(|mesh| &mesh.triangles);
         let mut used: Vec<u32> = triangles.map(|triangle| triangle.material).collect();
         used.sort_unstable();
@@ -102,19 +108,19 @@ impl Furnace {
         let used: Vec<&Material> = used.iter().map(|&index| &description.materials[index as usize]).collect();
         let (walls, within): (Vec<&Material>, Vec<&Material>) =
             used.into_iter().partition(|material| !material.emission.is_black());
-        let [wall] = walls[..] else { return Err(no_furnace()) };
+        let [wall] = walls[..] else { return Err(WhyNot::NotUniform) };
         let emission = wall.emission.to_array().map(f64::from);
         let black = wall.diffuse.is_black() && wall.specular == Specular::None;
         let share = |color: arty::math::Rgb| color.to_array().map(f64::from);
         let walls = match wall.specular {
-            _ if !description.lights.is_empty() => return Err(no_furnace()),
+            _ if !description.lights.is_empty() => return Err(WhyNot::NotUniform),
             _ if !within.is_empty() => {
                 if !(black && within.iter().all(|material| is_clear_glass(material))) {
-                    return Err(no_furnace());
+                    return Err(WhyNot::NotUniform);
                 }
                 Walls::Background
             }
-            _ if wall.diffuse_map.is_some() => return Err(no_furnace()),
+            _ if wall.diffuse_map.is_some() => return Err(WhyNot::NotUniform),
             Specular::None => Walls::Uniform(share(wall.diffuse)),
             Specular::Mirror { reflectance } if wall.diffuse.is_black() => Walls::Uniform(share(reflectance)),
             _ => Walls::Glossy,
@@ -161,41 +167,35 @@ impl Furnace {
         (0..SIZE.1).flat_map(|y| (0..SIZE.0).map(move |x| (x, y))).map(|(x, y)| pixel(x, y)).collect()
     }
 
-    /// c_k for k = 0, 1, …, from the means of the whole image.
-    fn coefficients(&self, judgements: &[Judgement]) -> Vec<f64> {
+    /// c_k for k = 0, 1, …, from the means of the whole image; empty where there is no series. Pictures of two orders are
+    /// independent.
+    fn energy(&self, judgements: &[Judgement]) -> Vec<BounceEnergy> {
+        if !matches!(self.walls, Walls::Uniform(_)) {
+            return Vec::new();
+        }
         // Green stands for all: the factor of a bounce is the same in each channel.
         let exact = |order: usize| self.series(1, order as u32);
         let seen = |order: usize| exact(order) * (1.0 + judgements[order].whole.relative());
-        let step = |order: usize, of: &dyn Fn(usize) -> f64| {
-            if order == 0 { of(0) } else { of(order) - of(order - 1) }
-        };
-        if !matches!(self.walls, Walls::Uniform(_)) {
-            return Vec::new();
-        }
-        (0..judgements.len()).map(|order| step(order, &seen) / step(order, &exact)).collect()
-    }
-}
-
-/// Confidence of the intervals of coefficients, as of all intervals in a report.
-const CONFIDENCE: f64 = 0.99;
-
-impl Furnace {
-    /// Half the interval of each [`Self::coefficients`]: the pictures of two orders are independent.
-    fn coefficient_margins(&self, judgements: &[Judgement]) -> Vec<f64> {
-        if !matches!(self.walls, Walls::Uniform(_)) {
-            return Vec::new();
-        }
-        let exact = |order: usize| self.series(1, order as u32);
         let margin = |order: usize| exact(order) * judgements[order].whole.relative_margin(CONFIDENCE);
-        let of = |order: usize| match order {
-            0 => margin(0) / exact(0),
-            _ => margin(order).hypot(margin(order - 1)) / (exact(order) - exact(order - 1)),
+        let of = |order: usize| {
+            let (seen, exact, margin) = match order {
+                0 => (seen(0), exact(0), margin(0)),
+                _ => (
+                    seen(order) - seen(order - 1),
+                    exact(order) - exact(order - 1),
+                    margin(order).hypot(margin(order - 1)),
+                ),
+            };
+            let margin = Some(margin / exact).filter(|margin| margin.is_finite());
+            BounceEnergy { relative: seen / exact, margin }
         };
-        // JSON has no infinity; a margin that is none is not shown.
-        let margins: Vec<f64> = (0..judgements.len()).map(of).collect();
-        if margins.iter().all(|margin| margin.is_finite()) { margins } else { Vec::new() }
+        let energy: Vec<BounceEnergy> = (0..judgements.len()).map(of).collect();
+        if energy.iter().all(|energy| energy.relative.is_finite()) { energy } else { Vec::new() }
     }
 }
+
+/// Confidence of the intervals of energies, as of all intervals in a report.
+const CONFIDENCE: f64 = 0.99;
 
 fn is_clear_glass(material: &Material) -> bool {
     let clear = |color: arty::math::Rgb| color == arty::math::Rgb::WHITE;
@@ -256,8 +256,11 @@ mod tests {
             ("furnace_glass", 64, 5e-3),
         ] {
             let judged = judged(name);
-            let furnace = Furnace::recognise(&judged).unwrap_or_else(|why| panic!("{name}: {why}"));
-            let view = verdict::rubric::View { max_bounces: order, hits: verdict::rubric::Hits::On };
+            let furnace = Furnace::recognise(&judged).unwrap_or_else(|why| panic!("{name}: {why:?}"));
+            let view = verdict::rubric::View {
+                max_bounces: order,
+                emission_on_hit: verdict::rubric::EmissionOnHit::On,
+            };
             let rendered = &judged.reference.views[&view];
             for (pixel, exact) in furnace.picture(&judged.scene, order).iter().enumerate() {
                 for channel in 0..3 {
@@ -275,11 +278,8 @@ mod tests {
 
     #[test]
     fn other_scenes_are_none_and_say_why() {
-        for (name, expected) in
-            [("cornell_box", "not enclosed"), ("furnace_cap", "does not emit the same everywhere")]
-        {
-            let why = why_no_furnace(&judged(name)).expect(name);
-            assert!(why.contains(expected), "{name}: {why}");
+        for (name, expected) in [("cornell_box", WhyNot::NotEnclosed), ("furnace_cap", WhyNot::NotUniform)] {
+            assert_eq!(Furnace::recognise(&judged(name)).err(), Some(expected), "{name}");
         }
     }
 
@@ -302,7 +302,8 @@ mod tests {
         let share = area(0) / (area(0) + area(1));
         assert!(!cap.emission.is_black() && wall.emission.is_black());
         assert!((share - 0.2).abs() < 0.01, "{share}");
-        let view = verdict::rubric::View { max_bounces: 8, hits: verdict::rubric::Hits::On };
+        let view =
+            verdict::rubric::View { max_bounces: 8, emission_on_hit: verdict::rubric::EmissionOnHit::On };
         let rendered = &judged.reference.views[&view];
         for channel in 0..3 {
             let (emission, albedo) =

@@ -5,9 +5,8 @@ use arty::integrator::Technique;
 use super::measure::{Contestant, Options, measure};
 use harness::build::HandInProgram;
 use harness::workspace::Workspace;
-use verdict::convergence::{Convergence, Role};
+use verdict::convergence::{Convergence, LeftOut, Role};
 use verdict::error::Result;
-use verdict::report::LeftOut;
 
 /// The two scenes in which the techniques differ most in a short time.
 const SCENES: [&str; 2] = ["cornell_box", "veach_mis"];
@@ -44,7 +43,7 @@ pub fn brief(
         convergence.left_out.insert(
             0,
             LeftOut {
-                check: "convergence of the solution".to_owned(),
+                program: "solution".to_owned(),
                 scene: String::new(),
                 why: "there is no solution in this checkout to compare with".to_owned(),
             },

@@ -2,7 +2,7 @@
 
 use arty::integrator::Settings;
 use arty::sampler::batch_seed;
-use host::protocol::{RenderJob, Switches};
+use host::protocol::RenderJob;
 
 use verdict::convergence::{Convergence, Crop, Crops, Curve, Panel, Role};
 
@@ -58,16 +58,13 @@ fn of_panel(
         let Some(samples) = samples(curve, width * height) else { continue };
         let mut process = HostProcess::start(contestant.program, convergence.threads)?;
         let Ok(scene) = process.load(&description)? else { continue };
-        let job = RenderJob {
+        let job = RenderJob::new(
             scene,
-            settings: Settings { technique: curve.technique, max_bounces: *max_bounces },
-            width: width as u32,
-            height: height as u32,
-            seeds: vec![batch_seed(convergence.seed, 0)],
-            first_sample: 0,
+            Settings { technique: curve.technique, max_bounces: *max_bounces },
+            [width as u32, height as u32],
+            vec![batch_seed(convergence.seed, 0)],
             samples,
-            switches: Switches::default(),
-        };
+        );
         let Ok(answer) = process.render(&job)? else { continue };
         if let Some(picture) = answer.batches.into_iter().next() {
             rendered.push((curve, samples, picture.iter().map(|pixel| pixel.map(f64::from)).collect()));

@@ -10,14 +10,13 @@ use super::estimate::{Estimated, estimate, relative_bias_squared};
 use super::racer::{ROUNDS, Racer};
 use super::summary::{efficiency, rounded, seconds_to, slope};
 use crate::image_error::{Truth, relative_weight};
-use crate::reference::{self, Light};
+use crate::reference::{self, ReferenceView};
 use harness::build::HandInProgram;
 use harness::host_process::HostProcess;
 use harness::workspace::Workspace;
-use verdict::convergence::{Convergence, Curve, Panel, Role};
+use verdict::convergence::{Convergence, Curve, LeftOut, Panel, Role};
 use verdict::error::{Error, Result};
-use verdict::report::LeftOut;
-use verdict::rubric::{Hits, View};
+use verdict::rubric::{EmissionOnHit, View};
 
 /// What is measured.
 #[derive(Clone, Debug)]
@@ -75,7 +74,7 @@ struct ScenePlan {
     name: String,
     description: SceneDescription,
     max_bounces: u32,
-    light: Light,
+    light: ReferenceView,
     area_lights: usize,
     point_lights: usize,
 }
@@ -97,8 +96,10 @@ impl ScenePlan {
 }
 
 /// The image with all light, at the largest number of bounces.
-fn full_light(reference: reference::Reference, path: &Path) -> Result<(u32, Light)> {
-    let all = |(view, light): (View, Light)| (view.hits == Hits::On).then_some((view.max_bounces, light));
+fn full_light(reference: reference::Reference, path: &Path) -> Result<(u32, ReferenceView)> {
+    let all = |(view, light): (View, ReferenceView)| {
+        (view.emission_on_hit == EmissionOnHit::On).then_some((view.max_bounces, light))
+    };
     reference
         .views
         .into_iter()
@@ -127,7 +128,7 @@ fn race(
         let baseline = contestant.role == Role::Baseline;
         if baseline && scene.area_lights == 0 {
             into.left_out.push(LeftOut {
-                check: format!("convergence of {}", contestant.name),
+                program: contestant.name.clone(),
                 scene: scene.name.clone(),
                 why: "no light has an area: BSDF sampling gives black".to_owned(),
             });
@@ -190,7 +191,7 @@ fn evaluate(
         let Contestant { name, role, .. } = &contestants[racer.contestant];
         if let Some(fault) = &racer.fault {
             into.left_out.push(LeftOut {
-                check: format!("convergence of {name}, {}", racer.settings.technique),
+                program: format!("{name}, {}", racer.settings.technique),
                 scene: scene.name.clone(),
                 why: fault.to_string(),
             });
@@ -238,7 +239,7 @@ fn panel(scene: &ScenePlan, technique: Technique, target: Option<f64>, measured:
         seconds_to_target: seconds_to(target, &measured.curve.points),
         ..measured.curve.clone()
     };
-    let Light { mean, variance_of_mean, .. } = &scene.light;
+    let ReferenceView { mean, variance_of_mean, .. } = &scene.light;
     let noise = mean.iter().flatten().zip(variance_of_mean.iter().flatten());
     let noise = noise.map(|(&mean, variance)| relative_weight(mean) * variance).sum::<f64>();
     Panel {

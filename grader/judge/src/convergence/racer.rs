@@ -2,7 +2,7 @@
 
 use arty::integrator::Settings;
 use arty::sampler::batch_seed;
-use host::protocol::{RenderJob, Switches};
+use host::protocol::RenderJob;
 
 use super::estimate::Renders;
 use crate::reference::SIZE;
@@ -107,16 +107,7 @@ impl Racer {
         if self.fault.is_some() {
             return Ok(None);
         }
-        let job = RenderJob {
-            scene: 0,
-            settings: self.settings,
-            width: SIZE.0,
-            height: SIZE.1,
-            seeds: seeds.to_vec(),
-            first_sample: 0,
-            samples,
-            switches: Switches::default(),
-        };
+        let job = RenderJob::new(0, self.settings, [SIZE.0, SIZE.1], seeds.to_vec(), samples);
         match process.render(&job)? {
             Ok(rendered) => {
                 self.non_finite += rendered.non_finite;

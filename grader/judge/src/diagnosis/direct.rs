@@ -1,138 +1,70 @@
 //! Causes that are seen without comparing anything.
 
 use arty::integrator::Technique;
+use verdict::check::{CheckKind, CheckResult, Evidence, Fault, Reason, WeightForm};
+use verdict::report::{Cause, Diagnosis, Report, SeenIn};
 
 use super::Found;
-use verdict::report::CONSTANT_WEIGHTS;
-use verdict::report::{CheckResult, Diagnosis, Reason, Report};
-use verdict::rubric::CheckKind;
 
-const NEE: &str = "nee";
-const MIS: &str = "mis";
+/// The techniques that a submission has to fill in.
+const BOTH: [Technique; 2] = [Technique::Nee, Technique::Mis];
 
 /// Causes that are plain from the report and the source.
 pub(super) fn causes(report: &Report, source: &str) -> Vec<Found> {
     if report.submission.build_failure.is_some() {
-        return vec![not_compiled(report)];
+        let refused = report.submission.refusal.is_some();
+        let cause = if refused { Cause::NothingToCompile } else { Cause::DoesNotCompile };
+        return vec![found(cause, None, &BOTH)];
     }
     let stopped = |reason: Reason| report.checks.iter().filter(move |check| check.reason == reason);
-    let mut found = Vec::new();
-    if let Some(panicked) = stopped(Reason::Crash).next() {
+    let mut all = Vec::new();
+    if let Some(crashed) = stopped(Reason::Crash).next() {
         // Where it does not panic, something else may be wrong.
-        found.push(panic(panicked));
+        let cause = if is_todo(crashed) { Cause::TodoLeft } else { Cause::Panics };
+        all.push(found(cause, Some(crashed), &[]));
     }
-    if 2 * stopped(Reason::Timeout).count() > report.checks.len() {
-        found.push(late(report));
+    let late = stopped(Reason::Timeout).count();
+    if 2 * late > report.checks.len() {
+        all.push(found(Cause::DoesNotFinish { late }, stopped(Reason::Timeout).next(), &BOTH));
     }
-    let untouched =
-        Untouched { mis: Untouched::of(source).mis && weighs_nothing(report), ..Untouched::of(source) };
-    if found.is_empty() && untouched.any() {
-        found.push(not_begun(untouched));
+    let untouched = Untouched::of(source);
+    if all.is_empty() && untouched.everything {
+        all.push(found(Cause::NotBegun, None, &BOTH));
+    } else if all.is_empty() && untouched.mis && weighs_nothing(report) {
+        all.push(found(Cause::MisNotBegun, None, &[Technique::Mis]));
     }
-    found
+    all
 }
 
-fn cause(mistake: &str, title: &str, evidence: String, hint: &str, explains: &[&'static str]) -> Found {
-    Found {
-        diagnosis: Diagnosis {
-            mistake: mistake.to_owned(),
-            title: title.to_owned(),
-            confidence: 1.0,
-            evidence,
-            hint: hint.to_owned(),
-        },
-        explains: Some(explains.to_vec()),
-    }
+fn found(cause: Cause, seen: Option<&CheckResult>, explains: &[Technique]) -> Found {
+    let seen = seen.map(|check| SeenIn { wrong: check.id.clone(), right: None });
+    Found { diagnosis: Diagnosis { cause, confidence: 1.0, seen }, explains: explains.to_vec() }
 }
 
-fn not_compiled(report: &Report) -> Found {
-    let failure = report.submission.build_failure.as_ref();
-    let messages = failure.map_or("", |failure| failure.messages.as_str());
-    if let Some(refusal) = &report.submission.refusal {
-        let hint = "Hand in your render_pt.rs: by itself, or in a folder or an archive that has one. \
-                    `cargo grader pack` makes such an archive.";
-        let title = "There is nothing to compile";
-        let evidence = format!("{}: {}", refusal.code, first_line(messages));
-        return cause("nothing-to-compile", title, evidence, hint, &[NEE, MIS]);
-    }
-    let first = messages.lines().find(|line| line.starts_with("error")).unwrap_or(first_line(messages));
-    let place = failure.and_then(|failure| failure.line).map(|line| format!(" (line {line})"));
-    cause(
-        "does-not-compile",
-        "The file does not compile",
-        format!("{first}{}", place.unwrap_or_default()),
-        "Begin with the first error; later ones often follow from it. `cargo arty` shows the same messages in a second. \
-         Hand in what compiles, even if a task is missing: a file that does not compile earns nothing.",
-        &[NEE, MIS],
-    )
-}
-
-fn first_line(text: &str) -> &str {
-    text.lines().next().unwrap_or_default()
-}
-
-fn panic(check: &CheckResult) -> Found {
-    let words = check.explanation.as_str();
-    let evidence = format!("in {}, {words}", check.id);
-    // What the standard library says where a hand-in comes to a macro for code that is still to be written.
-    if words.contains("not yet implemented") || words.contains("not implemented") {
-        return cause(
-            "todo-left",
-            "A place that is marked as still to be done is reached",
-            evidence,
-            "The program stops where it comes to such a mark. While a technique is not done, let it do plain BSDF sampling, as \
-             the starting file does: then the others can be judged.",
-            &[],
-        );
-    }
-    cause(
-        "panics",
-        "The program stops in the middle (a panic)",
-        evidence,
-        "The message names the kind of fault: an index beyond the end, a division by zero of whole numbers, an `unwrap` of \
-         nothing. Think of scenes without lights, with a single one, and of random numbers just below 1. Run that scene with \
-         `cargo arty` to see the line.",
-        &[],
-    )
-}
-
-fn late(report: &Report) -> Found {
-    let late = report.checks.iter().filter(|check| check.reason == Reason::Timeout);
-    let first = late.clone().next().map_or(String::new(), |check| format!(", the first in {}", check.id));
-    cause(
-        "does-not-finish",
-        "The program does not finish in time",
-        format!("{} of {} checks were not done in time{first}", late.count(), report.checks.len()),
-        "Look for a loop that never ends, and for work that grows with the number of lights at every hit point. Each path may \
-         scatter `max_bounces` times, and asks one light each time.",
-        &[NEE, MIS],
-    )
+/// True if it came to a macro of the standard library for code that is still to be written: only its message tells.
+fn is_todo(check: &CheckResult) -> bool {
+    let Some(Fault::Panic(message)) = &check.fault else { return false };
+    ["not yet implemented", "not implemented"].iter().any(|beginning| message.starts_with(beginning))
 }
 
 /// What can be said where no known mistake fits: that direct light is too bright or too dark by the same factor in all
 /// scenes in which only light samples bring it.
 pub(super) fn constant_factor(report: &Report) -> Option<Found> {
     let direct = report.checks.iter().filter(|check| {
-        check.technique == Technique::Nee
-            && check.max_bounces == 1
-            && matches!(check.check, CheckKind::MeanBias | CheckKind::ClosedForm)
+        check.id.technique == Technique::Nee
+            && check.id.max_bounces == 1
+            && matches!(check.id.kind, CheckKind::MeanBias | CheckKind::ClosedForm)
     });
-    let mut factors: Vec<(f64, &str)> =
-        direct.filter_map(|check| Some((1.0 + check.whole()?[0], check.scene.as_str()))).collect();
+    let factor = |check: &CheckResult| Some(1.0 + check.mean_test()?.whole?.relative);
+    let mut factors: Vec<(f64, &CheckResult)> =
+        direct.filter_map(|check| Some((factor(check)?, check))).collect();
     factors.sort_by(|a, b| a.0.total_cmp(&b.0));
     let factor = factors.get(factors.len() / 2)?.0;
     factors.retain(|(other, _)| (other / factor - 1.0).abs() < ALIKE);
-    let scenes: Vec<&str> = factors.iter().map(|(_, scene)| *scene).collect();
     let is_one = (factor - 1.0).abs() < 2.0 * ALIKE || factor < ALIKE;
-    (scenes.len() >= ENOUGH && !is_one).then(|| {
-        let mut found = cause(
-            "constant-factor",
-            &format!("Each light sample is {factor:.2} times as bright as it should be, whatever the scene"),
-            format!("direct light is that much too bright or too dark in {}, all alike", scenes.join(", ")),
-            "A constant is left out, or is there once too often. Write down the estimator for one point on one light with all \
-             its factors, say of each where it comes from, and compare with your product.",
-            &[],
-        );
+    (factors.len() >= ENOUGH && !is_one).then(|| {
+        let scenes = factors.iter().map(|(_, check)| check.id.scene.clone()).collect();
+        let mut found = found(Cause::ConstantFactor { factor, scenes }, None, &[]);
         found.diagnosis.confidence = 0.5;
         found
     })
@@ -144,10 +76,15 @@ const ALIKE: f64 = 0.04;
 /// Scenes that have to agree.
 const ENOUGH: usize = 4;
 
-/// True if the weights of `mis` were looked at, and are the same whatever the densities.
+/// True if the weights of `mis` were read, and are the same whatever the densities.
 fn weighs_nothing(report: &Report) -> bool {
-    let mut weights = report.checks.iter().filter(|check| check.check == CheckKind::MisWeights);
-    weights.any(|check| CONSTANT_WEIGHTS.iter().all(|name| check.details.contains_key(*name)))
+    let is_constant = |form: WeightForm| matches!(form, WeightForm::Constant(_));
+    report.checks.iter().any(|check| match &check.evidence {
+        Some(Evidence::MisWeights(test)) => {
+            test.measured.as_ref().is_some_and(|it| is_constant(it.light) && is_constant(it.bsdf))
+        }
+        _ => false,
+    })
 }
 
 /// Which parts nobody has begun, by the marks of the starting file; nothing where there are no such marks.
@@ -176,10 +113,6 @@ impl Untouched {
         let everything = blocks > 0 && written == 0;
         Self { everything, mis: blocks > 0 && !everything && !source.lines().any(code) }
     }
-
-    fn any(self) -> bool {
-        self.everything || self.mis
-    }
 }
 
 /// The code in the blocks of the starting file.
@@ -193,29 +126,6 @@ const GIVEN: [&str; 7] = [
     "struct LastBounce {}",
 ];
 
-fn not_begun(untouched: Untouched) -> Found {
-    if untouched.everything {
-        return cause(
-            "not-begun",
-            "Nothing is filled in yet: this is the starting file",
-            "all places that are marked TASK … END are as they were, and so every technique is plain BSDF sampling".to_owned(),
-            "Begin with 5.1a: at each hit point, choose a random point on a random light, see whether anything is in between, \
-             and add what it sends to the viewer. Try it in scenes/cornell_box_point.yml with `--technique=nee --max-bounces=1`: \
-             a point light is never hit by chance, so that all you see there is yours.",
-            &[NEE, MIS],
-        );
-    }
-    cause(
-        "mis-not-begun",
-        "5.2b is not begun: nothing in the file asks whether the technique is `mis`",
-        "the weights of the two techniques are the same whatever the densities, and no line asks for `Mis`"
-            .to_owned(),
-        "First let `nee` earn its points. Then write down, for one point on a light, the two densities with which it can be found, \
-         both per solid angle; the weights follow from them.",
-        &[MIS],
-    )
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -223,16 +133,16 @@ mod tests {
     use verdict::sample::report;
 
     fn named(report: &Report, source: &str) -> Vec<String> {
-        causes(report, source).into_iter().map(|found| found.diagnosis.mistake).collect()
+        causes(report, source).into_iter().map(|found| found.diagnosis.cause.id().to_owned()).collect()
     }
 
     #[test]
     fn what_stops_the_program_is_named() {
         let mut report = report("x");
         report.checks[0].reason = Reason::Crash;
-        report.checks[0].explanation = "it panicked: not yet implemented: the weights".to_owned();
+        report.checks[0].fault = Some(Fault::Panic("not yet implemented: the weights (a.rs:1)".to_owned()));
         assert_eq!(named(&report, ""), ["todo-left"]);
-        report.checks[0].explanation = "it panicked: index out of bounds".to_owned();
+        report.checks[0].fault = Some(Fault::Panic("index out of bounds".to_owned()));
         assert_eq!(named(&report, ""), ["panics"]);
         report.checks[0].reason = Reason::Timeout;
         assert_eq!(named(&report, ""), ["does-not-finish"]);
@@ -242,13 +152,13 @@ mod tests {
     }
 
     #[test]
-    fn the_first_error_of_the_compiler_is_quoted() {
+    fn a_file_that_does_not_compile_needs_no_other_cause() {
         let mut report = report("x");
-        let messages = "warning: w\nerror[E0425]: cannot find value `x`\nerror: other\n".to_owned();
+        let messages = "error[E0425]: cannot find value `x`".to_owned();
         report.submission.build_failure = Some(verdict::submission::BuildFailure { messages, line: Some(7) });
         let found = causes(&report, BLOCK);
         assert_eq!(found.len(), 1);
-        assert_eq!(found[0].diagnosis.evidence, "error[E0425]: cannot find value `x` (line 7)");
+        assert_eq!(found[0].diagnosis.cause, Cause::DoesNotCompile);
         assert!(found[0].is_everything());
     }
 

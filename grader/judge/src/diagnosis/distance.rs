@@ -3,12 +3,13 @@
 //! In principle this is (y − m)ᵀ Σ⁻¹ (y − m) with y what was seen and m the signature. Checks see the same light along
 //! the same paths, so that their numbers are anything but independent; and a student's code is never quite the variant's.
 //! So each check counts once, with the one number that differs most, in units of the measured standard errors and of
-//! a floor ([`scale`]) that stands for how much two programs with the same mistake may differ; and no check counts
+//! a floor ([`Quantity::scale`]) that stands for how much two programs with the same mistake may differ; and no check counts
 //! more than [`MOST_OF_ONE`].
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::observation::{Number, PLACE, Seen, State, Vector};
+use super::observation::{Number, Seen, State, Vector};
+use crate::checks::Quantity;
 
 /// What a single check can contribute at most: five standard deviations. A check that went astray decides nothing alone.
 pub(super) const MOST_OF_ONE: f64 = 25.0;
@@ -98,86 +99,59 @@ pub(super) fn of_check(a: &Seen, b: &Seen) -> Option<f64> {
 
 /// How far a check that is wrong is from one that passes.
 fn from_right(wrong: &Seen) -> f64 {
-    let mean = wrong.numbers.iter().filter(|(name, _)| is_ratio(name));
+    let mean = wrong.numbers.iter().filter(|(quantity, _)| quantity.is_zero_if_right());
     let in_places = Some(places(&wrong.numbers).len()).filter(|&count| count > 0);
     let in_places = in_places.map(|count| (EACH_PLACE * count as f64).min(PLAINLY));
-    let apart = mean.map(|(name, number)| squared(name, *number, Number(0.0, 0.0)));
+    let apart = mean.map(|(quantity, number)| squared(quantity, *number, Number(0.0, 0.0)));
     let furthest = apart.chain(in_places).reduce(f64::max);
     furthest.map_or(PLAINLY, |furthest| furthest.max(BARELY))
 }
 
-/// True for numbers that are 0 if all is right, since they are logarithms of ratios.
-fn is_ratio(name: &str) -> bool {
-    name == "mean" || order(name).is_some()
-}
-
-/// k of a c_k.
-fn order(name: &str) -> Option<u32> {
-    name.strip_prefix('c')?.parse().ok()
-}
-
 /// Where something is wrong, for checks that look at several scenes.
-fn places(numbers: &BTreeMap<String, Number>) -> BTreeSet<&str> {
-    numbers.keys().map(String::as_str).filter(|name| name.starts_with(PLACE)).collect()
+fn places(numbers: &BTreeMap<Quantity, Number>) -> BTreeSet<&Quantity> {
+    numbers.keys().filter(|quantity| matches!(quantity, Quantity::WrongAt(_))).collect()
 }
 
-fn numbers_apart(a: &BTreeMap<String, Number>, b: &BTreeMap<String, Number>) -> f64 {
+fn numbers_apart(a: &BTreeMap<Quantity, Number>, b: &BTreeMap<Quantity, Number>) -> f64 {
     let (places_of_a, places_of_b) = (places(a), places(b));
     let all = places_of_a.union(&places_of_b).count();
     let common = places_of_a.intersection(&places_of_b).count();
     let elsewhere = if all == 0 { 0.0 } else { OTHER_PLACES * (1.0 - common as f64 / all as f64) };
-    let names = a.keys().chain(b.keys().filter(|name| !a.contains_key(*name)));
-    names
-        .filter(|name| !name.starts_with(PLACE))
-        .map(|name| match (a.get(name), b.get(name)) {
-            (Some(a), Some(b)) => squared(name, *a, *b),
-            // A mean without an error is one that could not be told.
-            _ if is_ratio(name) || name.starts_with("noise") || name.starts_with("share") => 0.0,
+    let quantities = a.keys().chain(b.keys().filter(|quantity| !a.contains_key(*quantity)));
+    quantities
+        .filter(|quantity| !matches!(quantity, Quantity::WrongAt(_)))
+        .map(|quantity| match (a.get(quantity), b.get(quantity)) {
+            (Some(a), Some(b)) => squared(quantity, *a, *b),
+            // A mean that is missing is one that could not be told.
+            _ if quantity.may_be_missing() => 0.0,
             _ => ANOTHER_FORM,
         })
         .fold(elsewhere, f64::max)
 }
 
 /// The difference of two numbers, squared, in units of what it may be.
-fn squared(name: &str, a: Number, b: Number) -> f64 {
-    let floor = scale(name, 0.5 * (a.0 + b.0));
+fn squared(quantity: &Quantity, a: Number, b: Number) -> f64 {
+    let floor = quantity.scale(0.5 * (a.0 + b.0));
     let variance = a.1.powi(2) + b.1.powi(2) + floor.powi(2);
     (a.0 - b.0).powi(2) / variance
 }
 
-/// How much a number may differ between two programs with the same mistake, as one standard deviation.
-pub(super) fn scale(name: &str, value: f64) -> f64 {
-    if name.starts_with("noise") {
-        0.3
-    } else if name.contains("exponent") {
-        0.1
-    } else if name.starts_with("deviation") {
-        0.5
-    } else if name.starts_with("constant") {
-        0.02
-    } else if name.starts_with("a light") {
-        0.1
-    } else if name.starts_with("share") {
-        0.002 + 0.1 * value.abs()
-    } else {
-        // Logarithms of means: light that is 2 % off, and a tenth of the mistake itself. The more often light has been
-        // scattered, the less of it there is to measure c_k from.
-        0.02 + 0.02 * f64::from(order(name).unwrap_or(0).pow(2)) + 0.1 * value.abs()
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use verdict::check::CheckId;
 
-    fn seen(state: State, numbers: &[(&str, f64)]) -> Seen {
-        let numbers = numbers.iter().map(|&(name, value)| (name.to_owned(), Number(value, 0.0))).collect();
+    use super::*;
+    use crate::checks::WrongPlace;
+
+    fn seen(state: State, numbers: &[(Quantity, f64)]) -> Seen {
+        let numbers =
+            numbers.iter().map(|(quantity, value)| (quantity.clone(), Number(*value, 0.0))).collect();
         Seen { state, numbers }
     }
 
     #[test]
     fn the_same_factor_is_near_and_another_is_far() {
-        let factor = |factor: f64| seen(State::Wrong, &[("mean", factor.ln())]);
+        let factor = |factor: f64| seen(State::Wrong, &[(Quantity::Mean, factor.ln())]);
         assert!(of_check(&factor(2.0), &factor(2.05)).is_some_and(|it| it < 1.0));
         assert!(of_check(&factor(2.0), &factor(3.0)).is_some_and(|it| it > 4.0));
         assert_eq!(of_check(&factor(2.0), &factor(0.5)), Some(MOST_OF_ONE));
@@ -186,8 +160,8 @@ mod tests {
     #[test]
     fn an_error_that_is_barely_seen_is_barely_apart_from_none() {
         let right = seen(State::Pass, &[]);
-        assert_eq!(of_check(&right, &seen(State::Wrong, &[("mean", 0.01)])), Some(BARELY));
-        assert_eq!(of_check(&right, &seen(State::Wrong, &[("mean", 0.7)])), Some(MOST_OF_ONE));
+        assert_eq!(of_check(&right, &seen(State::Wrong, &[(Quantity::Mean, 0.01)])), Some(BARELY));
+        assert_eq!(of_check(&right, &seen(State::Wrong, &[(Quantity::Mean, 0.7)])), Some(MOST_OF_ONE));
         assert_eq!(of_check(&seen(State::Wrong, &[]), &right), Some(PLAINLY));
     }
 
@@ -200,20 +174,23 @@ mod tests {
 
     #[test]
     fn places_in_common_bring_two_nearer() {
-        let at = |places: &[&str]| {
-            let all: Vec<(String, f64)> =
-                places.iter().map(|place| (format!("{PLACE}{place}"), 1.0)).collect();
-            seen(State::Wrong, &all.iter().map(|(name, one)| (name.as_str(), *one)).collect::<Vec<_>>())
+        let at = |sizes: &[i32]| {
+            let place = |&size: &i32| (Quantity::WrongAt(WrongPlace::Scaled(size)), 1.0);
+            seen(State::Wrong, &sizes.iter().map(place).collect::<Vec<_>>())
         };
-        assert_eq!(of_check(&at(&["a", "b"]), &at(&["b", "a"])), Some(0.0));
-        assert_eq!(of_check(&at(&["a", "b"]), &at(&["b"])), Some(OTHER_PLACES / 2.0));
-        assert_eq!(of_check(&at(&["a"]), &at(&["b"])), Some(OTHER_PLACES));
+        assert_eq!(of_check(&at(&[1, 2]), &at(&[2, 1])), Some(0.0));
+        assert_eq!(of_check(&at(&[1, 2]), &at(&[2])), Some(OTHER_PLACES / 2.0));
+        assert_eq!(of_check(&at(&[1]), &at(&[2])), Some(OTHER_PLACES));
     }
 
     #[test]
     fn what_only_one_side_has_seen_does_not_count() {
         let vector = |ids: &[&str]| {
-            Vector(ids.iter().map(|&id| (id.to_owned(), seen(State::Wrong, &[("mean", 1.0)]))).collect())
+            let id =
+                |scene: &str| format!("mean-bias/{scene}/nee/1").parse::<CheckId>().expect("it is a name");
+            Vector(
+                ids.iter().map(|&scene| (id(scene), seen(State::Wrong, &[(Quantity::Mean, 1.0)]))).collect(),
+            )
         };
         let distance = Distance::between(&vector(&["a", "b"]), &vector(&["b", "c"]));
         assert_eq!(distance, Distance { squared: 0.0, freedom: 1, covered: 0.5 });

@@ -5,16 +5,16 @@
 //! (`signatures`, `cargo lab signatures`). The causes of a report are those whose signatures are nearest
 //! (`distance`, `rank`), unless even the nearest is too far: then the cause is unknown, and the report says so. What
 //! can be seen without any comparison is told first (`direct`): a file that does not compile or panics, tasks that nobody
-//! has begun. The words stand in the assignment's `causes.yml`, and `evidence` adds what was observed.
+//! has begun. The words stand in the assignment's `causes.yml`, and `seen` names the checks that decided.
 //!
 //! Whatever is compared, only checks count that both sides have: a grade may leave checks out, or stop early.
 
 mod confusion;
 mod direct;
 mod distance;
-mod evidence;
 mod observation;
 mod rank;
+mod seen;
 mod signatures;
 
 pub use confusion::{Case, Confusion};
@@ -23,15 +23,18 @@ pub use signatures::Signatures;
 
 use std::path::{Path, PathBuf};
 
+use arty::integrator::Technique;
 use serde::Deserialize;
 
+use verdict::check::CheckResult;
 use verdict::error::{Error, Result};
-use verdict::report::{CheckResult, Diagnosis, Report};
+use verdict::report::{self, Diagnosis, Report};
 
 /// How many causes are named at most.
 pub const MOST: usize = 3;
 
-pub use verdict::report::UNKNOWN;
+/// Name of the cause that is not known.
+pub const UNKNOWN: &str = "unknown";
 
 /// The mistakes that are known in an assignment.
 #[derive(Clone, Debug, Default)]
@@ -118,7 +121,7 @@ impl Catalogue {
             return Vec::new();
         }
         let mut found = direct::causes(report, source);
-        let explained = |technique: &str| found.iter().any(|direct| direct.explains(technique));
+        let explained = |technique: Technique| found.iter().any(|direct| direct.explains(technique));
         let vector = Vector::of(report).without(explained);
         if found.iter().all(|direct| !direct.is_everything()) {
             found.extend(self.compared(report, &vector));
@@ -127,27 +130,28 @@ impl Catalogue {
             found.extend(direct::constant_factor(report));
         }
         if found.is_empty() {
-            return vec![unknown(rank::something_fits(self, &vector))];
+            let several_fit = rank::something_fits(self, &vector);
+            return vec![Diagnosis {
+                cause: report::Cause::Unknown { several_fit },
+                confidence: 0.0,
+                seen: None,
+            }];
         }
         found.truncate(MOST);
         found.into_iter().map(|found| found.diagnosis).collect()
     }
 
     fn compared(&self, report: &Report, vector: &Vector) -> Vec<Found> {
-        let ranking = rank::rank(self, vector);
-        ranking
-            .iter()
-            .map(|candidate| {
-                let diagnosis = Diagnosis {
-                    mistake: candidate.cause.id.clone(),
-                    title: candidate.cause.title.clone(),
-                    confidence: candidate.confidence,
-                    evidence: evidence::sentence(self, report, vector, candidate),
-                    hint: candidate.cause.hint.clone(),
-                };
-                Found { diagnosis, explains: None }
-            })
-            .collect()
+        let found = |candidate: &rank::Candidate<'_>| {
+            let Cause { id, title, hint, .. } = candidate.cause.clone();
+            let seen = seen::seen(self, report, vector, candidate);
+            let cause = report::Cause::Known { id, title, hint };
+            Found {
+                diagnosis: Diagnosis { cause, confidence: candidate.confidence, seen },
+                explains: Vec::new(),
+            }
+        };
+        rank::rank(self, vector).iter().map(found).collect()
     }
 
     /// The names of the causes that a vector of observations is diagnosed with, as [`Self::diagnose`] would.
@@ -161,36 +165,20 @@ impl Catalogue {
     }
 }
 
-/// A cause, and what of the hand-in needs no other.
+/// A cause, and what of the submission needs no other.
 struct Found {
     diagnosis: Diagnosis,
-    /// The techniques whose failures it explains; none if it says nothing of that.
-    explains: Option<Vec<&'static str>>,
+    /// The techniques whose failures it explains.
+    explains: Vec<Technique>,
 }
 
 impl Found {
-    fn explains(&self, technique: &str) -> bool {
-        self.explains.as_ref().is_some_and(|all| all.contains(&technique))
+    fn explains(&self, technique: Technique) -> bool {
+        self.explains.contains(&technique)
     }
 
     /// True if nothing is left to be explained.
     fn is_everything(&self) -> bool {
-        ["nee", "mis"].iter().all(|technique| self.explains(technique))
-    }
-}
-
-/// What is said where nothing fits, or too much.
-fn unknown(something_fits: bool) -> Diagnosis {
-    let title = if something_fits {
-        "What was looked at fits several of the mistakes that are known: the cause is unknown. More checks may tell."
-    } else {
-        "What the checks have found fits none of the mistakes that are known: the cause is unknown."
-    };
-    Diagnosis {
-        mistake: UNKNOWN.to_owned(),
-        title: title.to_owned(),
-        confidence: 0.0,
-        evidence: String::new(),
-        hint: String::new(),
+        [Technique::Nee, Technique::Mis].into_iter().all(|technique| self.explains(technique))
     }
 }

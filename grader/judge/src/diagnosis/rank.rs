@@ -2,6 +2,8 @@
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
+use arty::integrator::Technique;
+
 use super::distance::Distance;
 use super::observation::{State, Vector};
 use super::{Catalogue, Cause, MOST};
@@ -35,7 +37,7 @@ pub(super) struct Candidate<'a> {
     /// The variant of the cause that fits best.
     pub(super) variant: &'a str,
     /// The technique that it was compared in; none if in all.
-    pub(super) technique: Option<&'static str>,
+    pub(super) technique: Option<Technique>,
     /// How likely it is among all that are known, in [0, 1].
     pub(super) confidence: f64,
     distance: Distance,
@@ -53,7 +55,7 @@ impl Candidate<'_> {
 /// technique may.
 pub(super) fn rank<'a>(catalogue: &'a Catalogue, vector: &Vector) -> Vec<Candidate<'a>> {
     let joint = within(catalogue, vector, None);
-    let parts: Vec<Vec<Candidate<'a>>> = ["nee", "mis"]
+    let parts: Vec<Vec<Candidate<'a>>> = [Technique::Nee, Technique::Mis]
         .into_iter()
         .map(|technique| (technique, vector.of_technique(technique)))
         .filter(|(_, part)| !part.is_right())
@@ -72,11 +74,7 @@ pub(super) fn rank<'a>(catalogue: &'a Catalogue, vector: &Vector) -> Vec<Candida
 }
 
 /// All causes by their distance, where there is anything to compare.
-fn within<'a>(
-    catalogue: &'a Catalogue,
-    vector: &Vector,
-    technique: Option<&'static str>,
-) -> Vec<Candidate<'a>> {
+fn within<'a>(catalogue: &'a Catalogue, vector: &Vector, technique: Option<Technique>) -> Vec<Candidate<'a>> {
     let candidate = |cause: &'a Cause| {
         let distances = cause.variants.iter().filter_map(|variant| {
             let signature = catalogue.signatures.get(variant)?;

@@ -11,6 +11,8 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::observation::{Number, Seen, State, Vector};
+use crate::checks::Quantity;
+use verdict::check::CheckId;
 use verdict::error::{Error, Result};
 
 /// The vectors of variants.
@@ -26,7 +28,7 @@ const NOT_RUN: char = '-';
 #[serde(deny_unknown_fields)]
 struct File {
     made_by: String,
-    checks: Vec<String>,
+    checks: Vec<CheckId>,
     variants: Vec<Row>,
 }
 
@@ -37,7 +39,7 @@ struct Row {
     seed: u64,
     states: String,
     /// By the check's place in the list.
-    numbers: BTreeMap<usize, BTreeMap<String, Number>>,
+    numbers: BTreeMap<usize, Vec<(Quantity, Number)>>,
 }
 
 impl Signatures {
@@ -84,7 +86,7 @@ impl Signatures {
                 let Some(&(state, _)) = known else {
                     return Err(blame(format!("{}: the letter `{letter}` means nothing", row.variant)));
                 };
-                let numbers = row.numbers.remove(&index).unwrap_or_default();
+                let numbers = row.numbers.remove(&index).unwrap_or_default().into_iter().collect();
                 vector.0.insert(check.clone(), Seen { state, numbers });
             }
             signatures.insert(&row.variant, row.seed, vector);
@@ -97,7 +99,7 @@ impl Signatures {
     /// # Errors
     /// If the file cannot be written.
     pub fn save(&self, path: &Path, made_by: &str) -> Result<()> {
-        let mut checks: Vec<String> =
+        let mut checks: Vec<CheckId> =
             self.vectors.values().flat_map(|vector| vector.0.keys().cloned()).collect();
         checks.sort();
         checks.dedup();
@@ -116,15 +118,15 @@ fn json(value: &impl Serialize) -> Result<String> {
     serde_json::to_string(value).map_err(|error| Error::Harness(error.to_string()))
 }
 
-fn row(variant: &str, seed: u64, vector: &Vector, checks: &[String]) -> Row {
-    let letter = |check: &String| {
+fn row(variant: &str, seed: u64, vector: &Vector, checks: &[CheckId]) -> Row {
+    let letter = |check: &CheckId| {
         let state = vector.0.get(check).map(|seen| seen.state);
         State::LETTERS.iter().find(|(other, _)| Some(*other) == state).map_or(NOT_RUN, |&(_, letter)| letter)
     };
-    let numbers = |(index, check): (usize, &String)| {
+    let numbers = |(index, check): (usize, &CheckId)| {
         let numbers = &vector.0.get(check)?.numbers;
         (!numbers.is_empty())
-            .then(|| (index, numbers.iter().map(|(name, it)| (name.clone(), rounded(*it))).collect()))
+            .then(|| (index, numbers.iter().map(|(quantity, it)| (quantity.clone(), rounded(*it))).collect()))
     };
     Row {
         variant: variant.to_owned(),

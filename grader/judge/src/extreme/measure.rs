@@ -2,7 +2,7 @@
 
 use arty::integrator::{Settings, Technique};
 use arty::sampler::batch_seed;
-use host::protocol::{AnomalousSample, RenderJob, Switches};
+use host::protocol::{AnomalousSample, RenderJob};
 
 use super::answers::{Answer, Extreme};
 use harness::host_process::{Fault, HostProcess};
@@ -66,16 +66,14 @@ pub fn measure(
     process: &mut HostProcess,
     scene: u32,
     settings: Settings,
-    [width, height]: [u32; 2],
+    size: [u32; 2],
     Effort(paths): Effort,
     seed: u64,
 ) -> Result<std::result::Result<Measured, Fault>> {
-    let pixels = u64::from(width) * u64::from(height);
+    let pixels = u64::from(size[0]) * u64::from(size[1]);
     let samples = paths.div_ceil(pixels * BATCHES);
     let seeds = (0..BATCHES).map(|batch| batch_seed(seed, batch)).collect();
-    let switches = Switches::default();
-    let job = RenderJob { scene, settings, width, height, seeds, first_sample: 0, samples, switches };
-    let rendered = match process.render(&job)? {
+    let rendered = match process.render(&RenderJob::new(scene, settings, size, seeds, samples))? {
         Ok(rendered) => rendered,
         Err(fault) => return Ok(Err(fault)),
     };

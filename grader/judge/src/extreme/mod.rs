@@ -1,5 +1,4 @@
 //! Scenes at the ends of what numbers can be, and what a program makes of them.
 
 pub mod answers;
-pub mod build;
 pub mod measure;

@@ -6,21 +6,24 @@ use std::path::Path;
 use arty::scene::Scene;
 
 use super::select::Selected;
-use crate::checks::JudgedScene;
+use crate::checks::SceneWithReference;
 use crate::reference;
 use harness::workspace::Workspace;
-use verdict::edition::is_hidden_name;
+use verdict::check::Visibility;
 use verdict::error::{Error, Result};
 
 /// The scenes that checks need, with their references; where there is no solution, without those that only staff have.
 pub(super) fn load_scenes(
     workspace: &Workspace,
     selected: &Selected<'_>,
-) -> Result<BTreeMap<String, JudgedScene>> {
+) -> Result<BTreeMap<String, SceneWithReference>> {
     let mut scenes = BTreeMap::new();
     let is_staff = workspace.solution_file().is_file();
-    let is_elsewhere =
-        |scene: &str| !is_staff && is_hidden_name(scene) && !workspace.scene_file(scene).exists();
+    let is_elsewhere = |scene: &str| {
+        !is_staff
+            && Visibility::of_scene(scene) == Visibility::StaffOnly
+            && !workspace.scene_file(scene).exists()
+    };
     for (_, spec) in selected.iter().filter(|(_, spec)| spec.check.needs_scene()) {
         if !(scenes.contains_key(&spec.scene) || is_elsewhere(&spec.scene)) {
             scenes.insert(spec.scene.clone(), load_scene(workspace, &spec.scene)?);
@@ -30,10 +33,10 @@ pub(super) fn load_scenes(
 }
 
 /// Loads a scene of the collection with its reference.
-pub fn load_scene(workspace: &Workspace, name: &str) -> Result<JudgedScene> {
+pub fn load_scene(workspace: &Workspace, name: &str) -> Result<SceneWithReference> {
     let description = arty::scene::file::load(&workspace.scene_file(name))?.description;
     let reference = reference::load(&workspace.reference_file(name), name, &description)?;
-    Ok(JudgedScene { scene: Scene::new(&description), description, reference })
+    Ok(SceneWithReference { scene: Scene::new(&description), description, reference })
 }
 
 /// BLAKE3 of a text file.
@@ -48,11 +51,11 @@ pub(super) fn hash_of_file(path: &Path) -> Result<String> {
 }
 
 /// BLAKE3 of all that is known of the scenes.
-pub(super) fn hash_of_references(scenes: &BTreeMap<String, JudgedScene>) -> String {
+pub(super) fn hash_of_references(scenes: &BTreeMap<String, SceneWithReference>) -> String {
     let mut hasher = blake3::Hasher::new();
-    for (name, judged) in scenes {
+    for (name, scene) in scenes {
         hasher.update(name.as_bytes());
-        hasher.update(format!("{:?}", judged.reference).as_bytes());
+        hasher.update(format!("{:?}", scene.reference).as_bytes());
     }
     hasher.finalize().to_hex().to_string()
 }

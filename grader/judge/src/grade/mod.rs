@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Instant;
 
-use crate::checks::{Bench, JudgedScene};
+use crate::checks::{GradeContext, SceneWithReference};
 use crate::diagnosis::Catalogue;
 use crate::plan;
 use crate::reference::Oracle;
@@ -20,18 +20,17 @@ use harness::sandbox::{Limits, Machine};
 use harness::scan::scan;
 use harness::trial;
 use harness::workspace::Workspace;
+use verdict::check::{CheckResult, Numerics};
 use verdict::error::Result;
 use verdict::report::{
-    CheckResult, Cost, LeftOut, Numerics, Points, Report, SCHEMA, Sandbox, SubmissionInfo, TaskResult,
+    Cost, Points, Provenance, Report, SCHEMA, Sandbox, SkippedCheck, SubmissionInfo, TaskResult, TaskState,
 };
 use verdict::rubric::Rubric;
-use verdict::submission::Submission;
-use verdict::submission::{BuildFailure, IntakeFinding};
+use verdict::submission::{BuildFailure, IntakeFinding, Submission};
 use verdict::text::clean;
-use verdict::text::quote;
 
 use inputs::{hash_of_file, hash_of_references, load_scenes};
-use select::select;
+use select::{Selected, select};
 
 pub use inputs::load_scene;
 
@@ -67,14 +66,14 @@ pub fn grade(
 pub struct Grader {
     options: Options,
     rubric: Rubric,
-    scenes: BTreeMap<String, JudgedScene>,
+    scenes: BTreeMap<String, SceneWithReference>,
     framework: Framework,
     framework_time: f64,
     oracle: Option<Oracle>,
     workspace: Workspace,
     /// What means nothing in its scenes, whatever the hand-in.
-    left_out: Vec<LeftOut>,
-    provenance: BTreeMap<String, String>,
+    skipped: Vec<SkippedCheck>,
+    provenance: Provenance,
     /// The mistakes that are known.
     catalogue: Catalogue,
 }
@@ -87,6 +86,7 @@ impl Grader {
     pub fn new(workspace: &Workspace, options: &Options) -> Result<Self> {
         let rubric_file = workspace.assignment(&options.assignment).join("rubric.yml");
         let rubric = Rubric::load(&rubric_file)?;
+        plan::validate(&rubric)?;
         let selected = select(&rubric, &options.only)?;
         let start = Instant::now();
         // The framework is mostly there already, and to find it does not take both cores.
@@ -101,16 +101,17 @@ impl Grader {
         let (scenes, framework) = (scenes?, framework?);
         let oracle = Oracle::of(workspace, &framework)?;
         let framework_time = start.elapsed().as_secs_f64();
-        let left_out = plan::left_out(&scenes);
-        let provenance = BTreeMap::from([
-            ("grader".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
-            ("framework".to_owned(), framework.hash.clone()),
-            ("rubric".to_owned(), hash_of_file(&rubric_file)?),
-            ("references".to_owned(), hash_of_references(&scenes)),
-            ("seed".to_owned(), options.seed.to_string()),
-            ("toolchain".to_owned(), framework.toolchain.clone()),
-            ("threads".to_owned(), options.threads.to_string()),
-        ]);
+        let skipped = plan::skipped(&scenes);
+        let provenance = Provenance {
+            assignment: options.assignment.clone(),
+            grader: env!("CARGO_PKG_VERSION").to_owned(),
+            framework: framework.hash.clone(),
+            rubric: hash_of_file(&rubric_file)?,
+            references: hash_of_references(&scenes),
+            seed: options.seed,
+            toolchain: framework.toolchain.clone(),
+            threads: options.threads,
+        };
         Ok(Self {
             options: options.clone(),
             rubric,
@@ -119,7 +120,7 @@ impl Grader {
             framework_time,
             oracle,
             workspace: workspace.clone(),
-            left_out,
+            skipped,
             provenance,
             catalogue: Catalogue::load(&workspace.assignment(&options.assignment))?,
         })
@@ -151,7 +152,7 @@ impl Grader {
     }
 
     /// What all grades rest on.
-    pub fn provenance(&self) -> &BTreeMap<String, String> {
+    pub fn provenance(&self) -> &Provenance {
         &self.provenance
     }
 
@@ -195,86 +196,27 @@ impl Grader {
         on_check: impl FnMut(&CheckResult) + Send,
     ) -> Result<(Report, Option<HandInProgram>)> {
         let start = Instant::now();
-        let Self {
-            options, rubric, scenes, framework, framework_time, oracle, workspace, provenance, ..
-        } = self;
-        let selected = select(rubric, &options.only)?;
-        let build_start = Instant::now();
+        let selected = select(&self.rubric, &self.options.only)?;
         let built = match refusal {
-            None => compile(framework, &submission.source, &options.limits)?,
+            None => compile(&self.framework, &submission.source, &self.options.limits)?,
             Some(refusal) => {
                 Err(BuildFailure { messages: clean(&format!("{}\n", refusal.message)), line: None })
             }
         };
-        let build_time = build_start.elapsed().as_secs_f64();
+        let build = start.elapsed().as_secs_f64();
 
         let run_start = Instant::now();
-        let mut checks = Vec::new();
-        let possible = Machine::here().layers();
-        let mut sandbox = Sandbox::new(possible, possible, scan(&submission.source));
-        let mut left_out = self.left_out.clone();
+        let mut ran = self.before_running(submission);
         if let Ok(program) = &built {
-            let host = HostProcess::start(program, options.threads)?.layers();
-            sandbox = Sandbox::new(program.layers, host, sandbox.findings);
-            trial::require(&sandbox, options.limits.least)?;
-            let path = quote(&submission.path);
-            let Options { assignment, seed, threads, .. } = options;
-            let bench = Bench {
-                program,
-                oracle: oracle.as_ref(),
-                scenes,
-                workspace,
-                seed: *seed,
-                screening_level: SCREENING_LEVEL / rubric.checks().count() as f64,
-                threads: *threads,
-                looks: LOOKS.len(),
-                command: format!("cargo grade {path} --assignment={assignment} --seed={seed}"),
-                path,
-            };
-            let mut meaningful = selected.clone();
-            meaningful.retain(|(_, spec)| {
-                let why = plan::why_left_out(spec, scenes.get(&spec.scene), oracle.is_some());
-                let why_not = |why| LeftOut { check: spec.id(), scene: spec.scene.clone(), why };
-                left_out.extend(why.clone().map(why_not));
-                why.is_none()
-            });
-            checks = run::run(&bench, &meaningful, on_check)?;
+            self.run(program, &selected, &mut ran, on_check)?;
         }
-        let run_time = run_start.elapsed().as_secs_f64();
+        let run = run_start.elapsed().as_secs_f64();
         let (program, build_failure) = match built {
             Ok(program) => (Some(program), None),
             Err(failure) => (None, Some(failure)),
         };
-        let nothing_ran = build_failure.as_ref().map(|_| {
-            if refusal.is_some() {
-                "there is nothing that can be graded"
-            } else {
-                "the hand-in does not compile"
-            }
-        });
-        let tasks: Vec<TaskResult> = rubric
-            .tasks
-            .iter()
-            .map(|task| points::mark(task, &selected, &checks, &left_out, nothing_ran))
-            .collect();
-        let tasks = points::require(rubric, tasks, &checks);
-        let total = |manual: bool| {
-            let tasks = rubric.tasks.iter().filter(|task| task.manual == manual);
-            // The library's own sum of nothing is −0.
-            tasks.fold(0.0, |sum, task| sum + task.points)
-        };
-        let points = Points {
-            earned: tasks.iter().filter_map(|task| task.points).fold(0.0, |sum, points| sum + points),
-            automatic_max: total(false),
-            manual_max: total(true),
-            max: total(false) + total(true),
-            marked: None,
-            elsewhere: tasks.iter().map(|task| task.elsewhere).sum(),
-        };
-        let numerics = Numerics {
-            non_finite: checks.iter().map(|check| check.non_finite).sum(),
-            negative: checks.iter().map(|check| check.negative).sum(),
-        };
+        let tasks = self.score(&selected, &ran, build_failure.is_some(), refusal.is_some());
+        let total = self.framework_time + start.elapsed().as_secs_f64();
         let mut report = Report {
             schema: SCHEMA.to_owned(),
             submission: SubmissionInfo {
@@ -285,25 +227,112 @@ impl Grader {
                 refusal: refusal.cloned(),
                 notes: Vec::new(),
             },
-            assignment: rubric.assignment.clone(),
-            points,
+            assignment: self.rubric.assignment.clone(),
+            points: self.sum(&tasks),
             tasks,
-            checks,
-            left_out,
+            numerics: numerics_of(&ran.checks),
+            checks: ran.checks,
+            skipped: ran.skipped,
             diagnosis: Vec::new(),
-            numerics,
-            cost: Cost {
-                framework: *framework_time,
-                build: build_time,
-                run: run_time,
-                total: framework_time + start.elapsed().as_secs_f64(),
-            },
-            sandbox,
-            provenance: provenance.clone(),
+            cost: Cost { framework: self.framework_time, build, run, total },
+            sandbox: ran.sandbox,
+            provenance: self.provenance.clone(),
             convergence: None,
             images: Vec::new(),
         };
         report.diagnosis = self.catalogue.diagnose(&report, &submission.source);
         Ok((report, program))
+    }
+
+    /// What is known of a submission before it runs.
+    fn before_running(&self, submission: &Submission) -> Ran {
+        let possible = Machine::here().layers();
+        let sandbox = Sandbox::new(possible, possible, scan(&submission.source));
+        Ran { checks: Vec::new(), skipped: self.skipped.clone(), sandbox }
+    }
+
+    /// Runs the checks that mean something for a submission.
+    fn run(
+        &self,
+        program: &HandInProgram,
+        selected: &Selected<'_>,
+        ran: &mut Ran,
+        on_check: impl FnMut(&CheckResult) + Send,
+    ) -> Result<()> {
+        let host = HostProcess::start(program, self.options.threads)?.layers();
+        ran.sandbox = Sandbox::new(program.layers, host, std::mem::take(&mut ran.sandbox.findings));
+        trial::require(&ran.sandbox, self.options.limits.least)?;
+        let context = GradeContext {
+            program,
+            oracle: self.oracle.as_ref(),
+            scenes: &self.scenes,
+            workspace: &self.workspace,
+            seed: self.options.seed,
+            screening_level: SCREENING_LEVEL / self.rubric.checks().count() as f64,
+            threads: self.options.threads,
+            looks: LOOKS.len(),
+        };
+        let mut meaningful = selected.clone();
+        meaningful.retain(|(_, spec)| {
+            let why = plan::why_skipped(spec, self.scenes.get(&spec.scene), self.oracle.is_some());
+            let is_meaningful = why.is_none();
+            ran.skipped.extend(why.map(|why| SkippedCheck {
+                kind: spec.check,
+                technique: spec.technique,
+                scene: spec.scene.clone(),
+                check: Some(spec.id()),
+                why,
+            }));
+            is_meaningful
+        });
+        ran.checks = run::run(&context, &meaningful, on_check)?;
+        Ok(())
+    }
+
+    fn score(
+        &self,
+        selected: &Selected<'_>,
+        ran: &Ran,
+        not_compiled: bool,
+        refused: bool,
+    ) -> Vec<TaskResult> {
+        let nothing_ran = match (refused, not_compiled) {
+            (true, _) => Some(TaskState::NothingToGrade),
+            (false, true) => Some(TaskState::NotCompiled),
+            (false, false) => None,
+        };
+        let score = |task| points::score(task, selected, &ran.checks, &ran.skipped, nothing_ran.clone());
+        points::require(&self.rubric, self.rubric.tasks.iter().map(score).collect(), &ran.checks)
+    }
+
+    fn sum(&self, tasks: &[TaskResult]) -> Points {
+        let total = |manual: bool| {
+            let tasks = self.rubric.tasks.iter().filter(|task| task.manual == manual);
+            // The library's own sum of nothing is −0.
+            tasks.fold(0.0, |sum, task| sum + task.points)
+        };
+        Points {
+            earned: tasks.iter().filter_map(|task| task.points).fold(0.0, |sum, points| sum + points),
+            automatic_max: total(false),
+            manual_max: total(true),
+            max: total(false) + total(true),
+            manual: None,
+            staff_only: tasks.iter().map(|task| task.staff_only).sum(),
+        }
+    }
+}
+
+/// What running a submission has come to.
+struct Ran {
+    checks: Vec<CheckResult>,
+    skipped: Vec<SkippedCheck>,
+    sandbox: Sandbox,
+}
+
+fn numerics_of(checks: &[CheckResult]) -> Numerics {
+    Numerics {
+        non_finite: checks.iter().map(|check| check.numerics.non_finite).sum(),
+        negative: checks.iter().map(|check| check.numerics.negative).sum(),
+        first: checks.iter().find_map(|check| check.numerics.first.clone()),
     }
 }

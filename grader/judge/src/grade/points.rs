@@ -1,67 +1,58 @@
 //! From verdicts to points.
 
-use super::select::Selected;
-use crate::plan;
-use verdict::report::{CheckResult, LeftOut, TaskResult, Verdict};
+use verdict::check::{CheckId, CheckResult, Verdict};
+use verdict::report::{SkippedCheck, TaskResult, TaskState};
 use verdict::rubric::{CheckSpec, Rubric, Task};
 
-/// The points of one task.
-pub(super) fn mark(
+use super::select::Selected;
+use crate::plan;
+
+/// The points of one task. `nothing_ran` says why no check was run, if none was.
+pub(super) fn score(
     task: &Task,
     selected: &Selected<'_>,
     results: &[CheckResult],
-    left_out: &[LeftOut],
-    nothing_ran: Option<&str>,
+    skipped: &[SkippedCheck],
+    nothing_ran: Option<TaskState>,
 ) -> TaskResult {
-    let ids: Vec<String> = task.checks.iter().map(CheckSpec::id).collect();
-    let mut result = TaskResult {
+    let result = |points: Option<f64>, state: TaskState| TaskResult {
         id: task.id.clone(),
         title: task.title.clone(),
-        points: None,
+        points,
         max: task.points,
-        elsewhere: 0.0,
-        checks: ids,
-        reason: String::new(),
+        staff_only: 0.0,
+        checks: task.checks.iter().map(CheckSpec::id).collect(),
+        state,
     };
     if task.manual {
-        result.reason = "marked by a person".to_owned();
-        return result;
+        return result(None, TaskState::ByHand { comment: None });
     }
-    if let Some(why) = nothing_ran {
-        result.points = Some(0.0);
-        result.reason = why.to_owned();
-        return result;
+    if let Some(state) = nothing_ran {
+        return result(Some(0.0), state);
     }
     let was_selected =
         |spec: &CheckSpec| selected.iter().any(|(owner, other)| owner.id == task.id && *other == spec);
     if !task.checks.iter().all(was_selected) {
-        result.reason = "not all of its checks were run".to_owned();
-        return result;
+        return result(None, TaskState::Partial);
     }
-    let (mut earned, mut total, mut elsewhere) = (0.0, 0.0, 0.0);
-    let mut missing_evidence = None;
+    let (mut earned, mut total, mut staff_only) = (0.0, 0.0, 0.0);
     let mut missing = Vec::new();
     for spec in &task.checks {
         let id = spec.id();
-        if left_out.iter().any(|left_out| left_out.check == id) {
+        if skipped.iter().any(|skipped| skipped.check.as_ref() == Some(&id)) {
             // A check that means nothing here is worth nothing; one that only staff can run keeps its worth.
             if plan::needs_staff(spec) {
                 total += spec.weight;
-                elsewhere += spec.weight;
+                staff_only += spec.weight;
             }
             continue;
         }
         total += spec.weight;
-        let passed = results
-            .iter()
-            .any(|check| check.id == id && check.task == task.id && check.verdict == Verdict::Pass);
-        if passed {
+        let is_it = |check: &&CheckResult| check.id == id && check.task == task.id;
+        if results.iter().find(is_it).is_some_and(|check| check.verdict == Verdict::Pass) {
             earned += spec.weight;
         } else {
-            missing.push(id.clone());
-            if spec.evidence {
-                missing_evidence.get_or_insert(id);
-            }
+            missing.push((id, spec.required));
         }
     }
     // Half points are the finest that a tutor would give.
@@ -69,49 +60,50 @@ pub(super) fn mark(
         let share = if total > 0.0 { weight / total } else { 0.0 };
         (task.points * share * 2.0).round() / 2.0
     };
-    result.points = Some(points_of(earned));
-    if elsewhere > 0.0 {
-        result.elsewhere = task.points - points_of(total - elsewhere);
-    }
-    if let Some(id) = missing_evidence {
-        result.points = Some(0.0);
-        result.reason = format!("no points without {id}");
-    } else if !missing.is_empty() {
-        result.reason = missing.join(", ");
+    let required = missing.iter().find(|(_, required)| *required).map(|(id, _)| id.clone());
+    let mut result = match required {
+        Some(id) => result(Some(0.0), TaskState::RequiredCheckMissing(Some(id))),
+        None => {
+            let missing = missing.into_iter().map(|(id, _)| id).collect();
+            result(Some(points_of(earned)), TaskState::Graded { missing })
+        }
+    };
+    if staff_only > 0.0 {
+        result.staff_only = task.points - points_of(total - staff_only);
     }
     result
 }
 
-/// Takes the points of tasks that rest on other tasks' evidence where that is missing.
+/// Takes the points of tasks that rest on other tasks' required checks where those are missing.
 pub(super) fn require(
     rubric: &Rubric,
     mut tasks: Vec<TaskResult>,
     results: &[CheckResult],
 ) -> Vec<TaskResult> {
     for (task, result) in rubric.tasks.iter().zip(&mut tasks) {
-        let lacks = |other: &&String| missing_evidence(other, results).is_some();
+        let lacks = |other: &&String| missing_required(other, results).is_some();
         if let (Some(points), Some(required)) = (result.points, task.requires.iter().find(lacks))
             && points > 0.0
         {
             result.points = Some(0.0);
-            result.reason = format!("no points without {required}");
+            result.state = TaskState::RequiredTaskMissing(required.clone());
         }
     }
     tasks
 }
 
-/// The check that has already cost a task all of its points, if one has: evidence for it, or for a task that it
+/// The check that has already cost a task all of its points, if one has: a required one of its own, or of a task that it
 /// requires.
-pub(super) fn lost_to(task: &Task, results: &[CheckResult]) -> Option<String> {
+pub(super) fn lost_to<'a>(task: &Task, results: &'a [CheckResult]) -> Option<&'a CheckId> {
     let all = std::iter::once(&task.id).chain(&task.requires);
-    all.filter_map(|task| missing_evidence(task, results)).next().map(str::to_owned)
+    all.filter_map(|task| missing_required(task, results)).next()
 }
 
-/// Evidence for a task that was looked for and not found.
-fn missing_evidence<'a>(task: &str, results: &'a [CheckResult]) -> Option<&'a str> {
+/// A required check of a task that was run and did not pass.
+fn missing_required<'a>(task: &str, results: &'a [CheckResult]) -> Option<&'a CheckId> {
     let missing =
-        |check: &&CheckResult| check.task == task && check.evidence && check.verdict != Verdict::Pass;
-    results.iter().find(missing).map(|check| check.id.as_str())
+        |check: &&CheckResult| check.task == task && check.required && check.verdict != Verdict::Pass;
+    results.iter().find(missing).map(|check| &check.id)
 }
 
 #[cfg(test)]
@@ -120,23 +112,23 @@ mod tests {
     use verdict::sample;
 
     #[test]
-    fn missing_evidence_costs_a_task_and_those_that_require_it_everything() {
+    fn a_missing_required_check_costs_a_task_and_those_that_require_it_everything() {
         let yaml = "
 assignment: a
 title: a
 tasks:
-  - { id: one, title: one, points: 1, checks: [{ check: mis-weights, technique: mis, max_bounces: 3, evidence: true }] }
-  - { id: two, title: two, points: 1, requires: [one], checks: [{ check: light-pick, technique: mis, max_bounces: 1, evidence: true }] }
-  - { id: three, title: three, points: 1, checks: [{ check: light-pick, technique: nee, max_bounces: 1, evidence: true }] }
+  - { id: one, title: one, points: 1, checks: [{ check: mis-weights, technique: mis, max_bounces: 3, required: true }] }
+  - { id: two, title: two, points: 1, requires: [one], checks: [{ check: light-pick, technique: mis, max_bounces: 1, required: true }] }
+  - { id: three, title: three, points: 1, checks: [{ check: light-pick, technique: nee, max_bounces: 1, required: true }] }
 ";
         let folder = tempfile::tempdir().expect("a temporary folder");
         let file = folder.path().join("rubric.yml");
         std::fs::write(&file, yaml).expect("it can be written");
         let rubric = Rubric::load(&file).expect("it is a rubric");
         let result = |verdict| {
-            let id = "mis-weights/scripted/mis/3".to_owned();
+            let id = "mis-weights/scripted/mis/3".parse().expect("it is a name");
             let sample = sample::report("").checks[0].clone();
-            CheckResult { id, task: "one".to_owned(), evidence: true, verdict, ..sample }
+            CheckResult { id, task: "one".to_owned(), required: true, verdict, ..sample }
         };
         let lost = |verdict| {
             rubric.tasks.iter().map(|task| lost_to(task, &[result(verdict)]).is_some()).collect::<Vec<_>>()

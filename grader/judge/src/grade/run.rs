@@ -5,9 +5,9 @@ use std::sync::{Mutex, PoisonError};
 
 use super::points::lost_to;
 use super::select::Selected;
-use crate::checks::Bench;
+use crate::checks::{GradeContext, give_up, skip};
+use verdict::check::{CheckResult, Reason};
 use verdict::error::{Error, Result};
-use verdict::report::{CheckResult, Reason, Verdict};
 
 /// Checks at a time. Each one's process has all the threads of the grade, so that the last to end leaves no core idle;
 /// more at a time would only wait for each other.
@@ -15,45 +15,37 @@ const MOST_AT_A_TIME: usize = 4;
 
 /// Runs checks, and gives their results in the order in which they were named. `on_check` is told of each as it ends.
 ///
-/// Evidence comes first. A task that has lost all of its points by that is only glanced at from then on: there is
-/// nothing to be won any more, and what is wrong mostly shows at once. Checks that go further than known scenes are
-/// left out there. Which tasks those are depends on verdicts alone, not on how many checks run at a time.
+/// Required checks come first. A task that has lost all of its points by them gets only short looks from then on: there
+/// is nothing to be won any more, and what is wrong mostly shows at once. Checks that go further than known scenes are
+/// skipped there. Which tasks those are depends on verdicts alone, not on how many checks run at a time.
 ///
 /// # Errors
 /// What is not the hand-in's doing.
 pub(super) fn run(
-    bench: &Bench<'_>,
+    context: &GradeContext<'_>,
     selected: &Selected<'_>,
     on_check: impl FnMut(&CheckResult) + Send,
 ) -> Result<Vec<CheckResult>> {
     let on_check = Mutex::new(on_check);
-    let (patience, glancing) = (Patience::default(), bench.at_a_glance());
-    let run_one = |(number, (task, spec)), evidence: &[CheckResult]| {
-        let result = match lost_to(task, evidence) {
-            _ if patience.is_over() => bench.give_up(task, spec),
-            None => bench.run(task, spec)?,
-            Some(cause) if spec.check.goes_further() => bench.leave_out(task, spec, &cause),
-            Some(cause) => glanced_at(glancing.run(task, spec)?, &cause),
+    let (patience, shortened) = (Patience::default(), context.with_short_looks());
+    let run_one = |(number, (task, spec)), required: &[CheckResult]| {
+        let result = match lost_to(task, required) {
+            _ if patience.is_over() => give_up(task, spec),
+            None => context.run(task, spec)?,
+            Some(lost_to) if spec.check.goes_further() => skip(task, spec, lost_to),
+            Some(_) => CheckResult { short_look: true, ..shortened.run(task, spec)? },
         };
         patience.hear_of(&result);
         on_check.lock().unwrap_or_else(PoisonError::into_inner)(&result);
         Ok((number, result))
     };
     let numbered = selected.iter().copied().enumerate();
-    let (first, others): (Vec<_>, Vec<_>) = numbered.partition(|(_, (_, spec))| spec.evidence);
-    let mut results = side_by_side(bench.threads, &first, |&check| run_one(check, &[]))?;
-    let evidence: Vec<CheckResult> = results.iter().map(|(_, result)| result.clone()).collect();
-    results.extend(side_by_side(bench.threads, &others, |&check| run_one(check, &evidence))?);
+    let (first, others): (Vec<_>, Vec<_>) = numbered.partition(|(_, (_, spec))| spec.required);
+    let mut results = side_by_side(context.threads, &first, |&check| run_one(check, &[]))?;
+    let required: Vec<CheckResult> = results.iter().map(|(_, result)| result.clone()).collect();
+    results.extend(side_by_side(context.threads, &others, |&check| run_one(check, &required))?);
     results.sort_by_key(|(number, _)| *number);
     Ok(results.into_iter().map(|(_, result)| result).collect())
-}
-
-/// Says of a check that stays without a verdict why nobody looked any longer.
-fn glanced_at(mut result: CheckResult, cause: &str) -> CheckResult {
-    if result.verdict == Verdict::Inconclusive {
-        result.explanation += &format!("; not looked at for longer, since the points are lost to {cause}");
-    }
-    result
 }
 
 /// Does things one after the other on each of several threads, and stops early at an error.
@@ -142,12 +134,5 @@ mod tests {
         use Reason::{Bias, Timeout};
         assert!(!after(&[Timeout, Bias, Timeout, Bias, Timeout]));
         assert!(after(&[Timeout, Timeout]) && after(&[Timeout, Bias, Timeout, Bias, Timeout, Bias, Timeout]));
-    }
-
-    #[test]
-    fn only_what_has_no_verdict_says_that_it_was_glanced_at() {
-        let check = |verdict| CheckResult { verdict, ..sample::report("text").checks[0].clone() };
-        assert_eq!(glanced_at(check(Verdict::Fail), "why").explanation, "text");
-        assert!(glanced_at(check(Verdict::Inconclusive), "why").explanation.ends_with("lost to why"));
     }
 }

@@ -10,7 +10,7 @@ pub(super) type Selected<'a> = Vec<(&'a Task, &'a CheckSpec)>;
 pub(super) fn select<'a>(rubric: &'a Rubric, only: &[String]) -> Result<Selected<'a>> {
     let names = |task: &Task, spec: &CheckSpec| {
         [
-            spec.id(),
+            spec.id().to_string(),
             spec.check.name().to_owned(),
             spec.scene.clone(),
             spec.technique.to_string(),
@@ -22,7 +22,7 @@ pub(super) fn select<'a>(rubric: &'a Rubric, only: &[String]) -> Result<Selected
         .filter(|(task, spec)| only.is_empty() || names(task, spec).iter().any(|name| only.contains(name)))
         .collect();
     if selected.is_empty() {
-        let all: Vec<String> = rubric.checks().map(|(_, spec)| spec.id()).collect();
+        let all: Vec<String> = rubric.checks().map(|(_, spec)| spec.id().to_string()).collect();
         return Err(Error::Input(format!(
             "--only: no such check, scene or task; there are\n  {}",
             all.join("\n  ")

@@ -2,7 +2,7 @@
 //!
 //! The main picture is the mean at the largest number of bounces, so that any viewer shows the scene. All else is
 //! in layers: `bounces1.mean`, `bounces1.variance` (of the mean), `bounces1.nee.deviation`, `bounces1.nee.skewness`;
-//! `bounces1.hits-off.mean` and so on for next event estimation alone.
+//! `bounces1.emission-off.mean` and so on for next event estimation alone.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -13,13 +13,13 @@ use arty::integrator::Technique;
 use arty::math::Rgb;
 use arty::scene::SceneDescription;
 
-use super::{Light, Moments, Reference, SIZE};
+use super::{Moments, Reference, ReferenceView, SIZE};
 use verdict::error::{Error, Result};
-use verdict::rubric::{Hits, View};
+use verdict::rubric::{EmissionOnHit, View};
 
 const SCENE_HASH: &str = "arty:scene_hash";
 const PROVENANCE: &str = "arty:";
-const HITS_OFF: &str = ".hits-off";
+const EMISSION_OFF: &str = ".emission-off";
 
 /// Writes a reference.
 pub fn save(reference: &Reference, path: &Path) -> Result<()> {
@@ -58,11 +58,11 @@ pub fn load(path: &Path, scene: &str, description: &SceneDescription) -> Result<
         return Err(Error::file(path, format!("not of {width} × {height} pixels; {renew}")));
     }
     let layer = |name: &str| file.layer(name).map(|image| from_image(&image));
-    let broken = || Error::file(path, format!("a layer is missing or holds no sound numbers; {renew}"));
+    let broken = || Error::file(path, format!("a layer is missing or holds invalid numbers; {renew}"));
     let mut views = BTreeMap::new();
     for view in file.channels.keys().filter_map(|channel| view_of(channel)) {
         let name = |rest: &str| format!("{}.{rest}", layer_name(&view));
-        let mut light = Light {
+        let mut light = ReferenceView {
             mean: layer(&name("mean")).ok_or_else(broken)?,
             variance_of_mean: layer(&name("variance")).ok_or_else(broken)?,
             techniques: BTreeMap::new(),
@@ -88,23 +88,23 @@ pub fn load(path: &Path, scene: &str, description: &SceneDescription) -> Result<
     Ok(Reference { scene_hash, views, provenance })
 }
 
-/// `bounces8`, or `bounces8.hits-off`.
+/// `bounces8`, or `bounces8.emission-off`.
 fn layer_name(view: &View) -> String {
-    let hits = if view.hits == Hits::Off { HITS_OFF } else { "" };
-    format!("bounces{}{hits}", view.max_bounces)
+    let emission = if view.emission_on_hit == EmissionOnHit::Off { EMISSION_OFF } else { "" };
+    format!("bounces{}{emission}", view.max_bounces)
 }
 
-/// What `bounces8.mean.R` or `bounces8.hits-off.mean.R` shows.
+/// What `bounces8.mean.R` or `bounces8.emission-off.mean.R` shows.
 fn view_of(channel: &str) -> Option<View> {
     let name = channel.strip_prefix("bounces")?.strip_suffix(".mean.R")?;
-    let (bounces, hits) = match name.strip_suffix(HITS_OFF) {
-        Some(bounces) => (bounces, Hits::Off),
-        None => (name, Hits::On),
+    let (bounces, emission_on_hit) = match name.strip_suffix(EMISSION_OFF) {
+        Some(bounces) => (bounces, EmissionOnHit::Off),
+        None => (name, EmissionOnHit::On),
     };
-    Some(View { max_bounces: bounces.parse().ok()?, hits })
+    Some(View { max_bounces: bounces.parse().ok()?, emission_on_hit })
 }
 
-fn is_sound(light: &Light) -> bool {
+fn is_sound(light: &ReferenceView) -> bool {
     let values = |list: &[[f64; 3]], sound: fn(f64) -> bool| list.iter().flatten().all(|&value| sound(value));
     let not_negative = |value: f64| value.is_finite() && value >= 0.0;
     values(&light.mean, not_negative)
@@ -145,7 +145,7 @@ mod tests {
         let pixels = |value: f64| (0..256).map(|i| [value, f64::from(i), 0.5]).collect::<Vec<_>>();
         let techniques =
             BTreeMap::from([("nee", Moments { deviation: pixels(2.0), skewness: pixels(-1.0) })]);
-        let light = |value| Light {
+        let light = |value| ReferenceView {
             mean: pixels(value),
             variance_of_mean: pixels(0.25),
             techniques: techniques.clone(),
@@ -153,9 +153,9 @@ mod tests {
         Reference {
             scene_hash: scene(40.0).hash(),
             views: BTreeMap::from([
-                (View { max_bounces: 1, hits: Hits::On }, light(1.0)),
-                (View { max_bounces: 8, hits: Hits::Off }, light(4.0)),
-                (View { max_bounces: 8, hits: Hits::On }, light(8.0)),
+                (View { max_bounces: 1, emission_on_hit: EmissionOnHit::On }, light(1.0)),
+                (View { max_bounces: 8, emission_on_hit: EmissionOnHit::Off }, light(4.0)),
+                (View { max_bounces: 8, emission_on_hit: EmissionOnHit::On }, light(8.0)),
             ]),
             provenance: BTreeMap::from([("seed".to_owned(), "7".to_owned())]),
         }

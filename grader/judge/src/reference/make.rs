@@ -9,12 +9,12 @@ use arty::sampler::batch_seed;
 use arty::scene::SceneDescription;
 use host::protocol::{RenderJob, Switches};
 
-use super::{Light, Moments, Reference, SIZE};
+use super::{Moments, Reference, ReferenceView, SIZE};
 use crate::statistics::bias::Expected;
 use harness::build::HandInProgram;
 use harness::host_process::HostProcess;
 use verdict::error::{Error, Result};
-use verdict::rubric::{Hits, View};
+use verdict::rubric::{EmissionOnHit, View};
 
 /// How many samples a reference takes.
 #[derive(Clone, Copy, Debug)]
@@ -49,7 +49,7 @@ pub fn make(
     let mut views = BTreeMap::new();
     for (&view, techniques) in wanted {
         let max_bounces = view.max_bounces;
-        let emission_on_hit = view.hits == Hits::On;
+        let emission_on_hit = view.emission_on_hit == EmissionOnHit::On;
         renderer.switches = Switches { emission_on_hit };
         let technique = if emission_on_hit { Technique::Mis } else { Technique::Nee };
         let settings = Settings { technique, max_bounces };
@@ -57,7 +57,7 @@ pub fn make(
         let (mean, variance) = mean_and_variance(&batches);
         let count = f64::from(effort.batches);
         let variance_of_mean = variance.into_iter().map(|value| value.map(|value| value / count)).collect();
-        let mut light = Light { mean, variance_of_mean, techniques: BTreeMap::new() };
+        let mut light = ReferenceView { mean, variance_of_mean, techniques: BTreeMap::new() };
         for &technique in techniques {
             let settings = Settings { technique, max_bounces };
             // Batches of one sample: each "mean" is a sample.
@@ -93,7 +93,7 @@ pub(super) fn live(
     let count = samples.len() as f64;
     let variance_of_mean = variance.into_iter().map(|value| value.map(|value| value / count)).collect();
     let techniques = BTreeMap::from([(settings.technique.name(), moments(&samples))]);
-    let light = Light { mean, variance_of_mean, techniques };
+    let light = ReferenceView { mean, variance_of_mean, techniques };
     light
         .expected(settings.technique)
         .ok_or_else(|| Error::Harness("the solution's own rendering has no moments".to_owned()))
@@ -151,14 +151,8 @@ impl Renderer {
         let mut means = Vec::with_capacity(batches as usize);
         for seeds in seeds.chunks(per_job) {
             let job = RenderJob {
-                scene: self.scene,
-                settings,
-                width,
-                height,
-                seeds: seeds.to_vec(),
-                first_sample: 0,
-                samples,
                 switches: self.switches,
+                ..RenderJob::new(self.scene, settings, [width, height], seeds.to_vec(), samples)
             };
             let rendered = self
                 .process

@@ -30,14 +30,14 @@ pub struct Reference {
     /// The hash of the scene's content.
     pub scene_hash: String,
     /// By which light is shown.
-    pub views: BTreeMap<View, Light>,
+    pub views: BTreeMap<View, ReferenceView>,
     /// How it was made, for the reader of the file.
     pub provenance: BTreeMap<String, String>,
 }
 
 /// The image that light makes which is scattered up to a number of times. All lists are row by row from the top.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Light {
+pub struct ReferenceView {
     /// Mean of each pixel.
     pub mean: Vec<[f64; 3]>,
     /// Variance of that mean.
@@ -55,7 +55,7 @@ pub struct Moments {
     pub skewness: Vec<[f64; 3]>,
 }
 
-impl Light {
+impl ReferenceView {
     /// What a correct estimator of this technique gives; `None` if the reference does not have the technique.
     pub fn expected(&self, technique: Technique) -> Option<Expected> {
         let moments = self.techniques.get(technique.name())?;

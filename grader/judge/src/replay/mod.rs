@@ -1,6 +1,6 @@
-//! One path of a hand-in again, with every call that it made.
+//! One path of a submission again, with every call that it made.
 //!
-//! Any path can be computed again from its seed, pixel and sample. The host writes down each call of the hand-in's code
+//! Any path can be computed again from its seed, pixel and sample. The host writes down each call of the submission's code
 //! ([`host::protocol::Call`]); [`vertices`] works out what a path that is weighted by the balance heuristic carries at
 //! each of its vertices.
 
@@ -8,42 +8,46 @@ mod place;
 mod vertices;
 
 use arty::integrator::Settings;
-use host::protocol::{Call, ReplayJob, Replayed};
-use verdict::replay::{Named, Path, Step};
-
+use arty::scene::SceneDescription;
 use harness::build::HandInProgram;
-use harness::host_process::{Fault, HostProcess};
-use verdict::error::Result;
+use harness::host_process::HostProcess;
+use host::protocol::{Call, ReplayJob, Switches};
+use verdict::replay::{Named, Path, ReplayTarget, Step};
+use verdict::rubric::EmissionOnHit;
 
-pub use place::Place;
+use crate::checks::JobError;
+
+pub use place::load;
 pub use vertices::vertices;
 
-/// Follows the path that `place` names with a program.
+/// Follows a path with a program, in the scene that [`load`] gives.
 ///
 /// # Errors
-/// What is not the program's doing.
-pub fn follow(program: &HandInProgram, place: &Place) -> Result<std::result::Result<Path, Fault>> {
+/// If the program gives no answer, or something else is wrong.
+pub fn follow(
+    program: &HandInProgram,
+    target: &ReplayTarget,
+    description: &SceneDescription,
+) -> Result<Path, JobError> {
     let mut process = HostProcess::start(program, 1)?;
-    let scene = match process.load(&place.description)? {
-        Ok(scene) => scene,
-        Err(fault) => return Ok(Err(fault)),
-    };
-    let Place { technique, max_bounces, size, seed, pixel, sample, switches, .. } = *place;
+    let scene = process.load(description)??;
+    let ReplayTarget { technique, max_bounces, size, seed, pixel, sample, emission_on_hit, .. } = *target;
     let settings = Settings { technique, max_bounces };
+    let switches = Switches { emission_on_hit: emission_on_hit == EmissionOnHit::On };
     let job = ReplayJob { scene, settings, size, seed, pixel, sample, switches };
-    Ok(process.replay(job)?.map(|replayed| path(replayed, place)))
-}
-
-fn path(replayed: Replayed, place: &Place) -> Path {
-    let Replayed { radiance, calls, left_out } = replayed;
-    Path { radiance, calls: calls.into_iter().map(|call| step(call, place)).collect(), left_out }
+    let replayed = process.replay(job)??;
+    Ok(Path {
+        radiance: replayed.radiance,
+        calls: replayed.calls.into_iter().map(|call| step(call, description)).collect(),
+        left_out: replayed.left_out,
+    })
 }
 
 /// Puts the material's name in the place of the surface's number.
-fn step(call: Call, place: &Place) -> Step {
+fn step(call: Call, description: &SceneDescription) -> Step {
     let number =
         |name: &str| Some(call.got.iter().find(|(other, _)| other == name)?.1.first().copied()? as usize);
-    let materials = &place.description.materials;
+    let materials = &description.materials;
     let material = number("surface").zip(number("surfaces")).map(|(surface, surfaces)| {
         // Before the materials there may be the one surface that all triangle lights share.
         let first = surfaces.saturating_sub(materials.len());

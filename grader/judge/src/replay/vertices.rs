@@ -1,14 +1,13 @@
 //! What a path carries at each of its vertices, worked out from the calls of the solution.
 
 use arty::integrator::Technique;
+use arty::scene::SceneDescription;
 use verdict::replay::{FoundLight, Path, Step, Vertex};
-
-use super::Place;
 
 /// Reads the vertices off the calls of the solution, of which it is known in which order they come. Densities and
 /// weights are worked out in double precision from what the framework gave.
-pub fn vertices(path: &Path, place: &Place) -> Vec<Vertex> {
-    let lights = light_count(place);
+pub fn vertices(path: &Path, technique: Technique, description: &SceneDescription) -> Vec<Vertex> {
+    let lights = light_count(description);
     let mut vertices: Vec<Vertex> = Vec::new();
     let mut throughput = 1.0;
     // Where the last bounce was and the density of its direction; none at the camera and after a delta bounce.
@@ -24,7 +23,7 @@ pub fn vertices(path: &Path, place: &Place) -> Vec<Vertex> {
                 vertices.push(Vertex { bounce, throughput, hit: None, light_sample: None });
             }
             "Hit::emission" => {
-                let light = found_by_hit(step, place.technique, last, here, lights, throughput);
+                let light = found_by_hit(step, technique, last, here, lights, throughput);
                 if let Some(vertex) = vertices.last_mut() {
                     vertex.hit = light;
                 }
@@ -53,8 +52,8 @@ pub fn vertices(path: &Path, place: &Place) -> Vec<Vertex> {
     vertices
 }
 
-fn light_count(place: &Place) -> f64 {
-    arty::scene::Scene::new(&place.description).lights().len() as f64
+fn light_count(description: &SceneDescription) -> f64 {
+    arty::scene::Scene::new(description).lights().len() as f64
 }
 
 fn triple(values: &[f32]) -> [f64; 3] {

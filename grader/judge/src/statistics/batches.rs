@@ -72,8 +72,8 @@ impl Batches {
 
 #[cfg(test)]
 mod tests {
-    use super::super::regions::Kind;
     use super::*;
+    use verdict::check::{Channel, RegionId, RegionKind};
 
     #[test]
     fn samples_added_in_pieces_have_the_mean_of_the_whole() {
@@ -82,7 +82,11 @@ mod tests {
         batches.extend(&[vec![[5.0, 2.0, 0.0]], vec![[4.0; 3]]], 3);
         assert_eq!((batches.count(), batches.samples_per_pixel()), (2, 8));
         let weights = vec![(0, [1.0, 0.0, 0.0])];
-        let region = Region { name: "red".to_owned(), level: 0, weights, kind: Kind::Channel };
+        let region = Region {
+            id: RegionId { kind: RegionKind::Channel(Channel::Red), pixels: None },
+            level: 0,
+            weights,
+        };
         let red: Vec<f64> = batches.contrast(&region).collect();
         assert_eq!(red, [4.0, 3.0]);
     }

@@ -2,17 +2,19 @@
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
+use verdict::check::PixelGroup;
+
 use super::batches::Batches;
 
 /// Gives the group of a pixel at (x, y).
 type GroupOf = fn(u32, u32) -> (u32, u32);
 
 /// Ways of summing pixels.
-const GROUPS: [(&str, GroupOf); 4] = [
-    ("the whole image", |_, _| (0, 0)),
-    ("rows", |_, y| (0, y)),
-    ("columns", |x, _| (x, 0)),
-    ("tiles of 4 × 4 pixels", |x, y| (x / 4, y / 4)),
+const GROUPS: [(PixelGroup, GroupOf); 4] = [
+    (PixelGroup::Image, |_, _| (0, 0)),
+    (PixelGroup::Row, |_, y| (0, y)),
+    (PixelGroup::Column, |x, _| (x, 0)),
+    (PixelGroup::Tile, |x, y| (x / 4, y / 4)),
 ];
 
 /// What was found.
@@ -23,7 +25,7 @@ pub struct Dependence {
     /// The variance of the pixels' sum, relative to what it should be.
     pub excess: f64,
     /// Which pixels vary together.
-    pub of: &'static str,
+    pub pixels: PixelGroup,
 }
 
 /// Looks for pixels that vary together.
@@ -35,8 +37,8 @@ pub fn dependence(batches: &Batches, width: u32) -> Dependence {
     let count = batches.count();
     let pixels = batches.pixels();
     let residuals: Vec<Option<Vec<f64>>> = (0..pixels).map(|pixel| standardised(batches, pixel)).collect();
-    let mut worst = Dependence { p_value: 1.0, excess: 1.0, of: GROUPS[0].0 };
-    for (name, group_of) in GROUPS {
+    let mut worst = Dependence { p_value: 1.0, excess: 1.0, pixels: GROUPS[0].0 };
+    for (group, group_of) in GROUPS {
         let mut groups: std::collections::BTreeMap<(u32, u32), (u32, Vec<f64>)> = Default::default();
         for (pixel, residual) in residuals.iter().enumerate() {
             let Some(residual) = residual else { continue };
@@ -55,7 +57,7 @@ pub fn dependence(batches: &Batches, width: u32) -> Dependence {
         let Ok(distribution) = ChiSquared::new(freedom) else { continue };
         let p_value = (GROUPS.len() as f64 * distribution.sf(sum)).min(1.0);
         if p_value < worst.p_value {
-            worst = Dependence { p_value, excess: sum / freedom, of: name };
+            worst = Dependence { p_value, excess: sum / freedom, pixels: group };
         }
     }
     worst
@@ -106,7 +108,7 @@ mod tests {
             ("all", (|_| 0) as fn(u32) -> u32),
             ("pairs in a row", |pixel| pixel / 2),
             ("sixteen in a row", |pixel| pixel / 16),
-            ("columns", |pixel| pixel % 16),
+            (PixelGroup::Column, |pixel| pixel % 16),
         ] {
             for seed in 0..5 {
                 let found = seen(seed, stream);

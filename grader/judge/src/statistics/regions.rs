@@ -3,6 +3,8 @@
 //! A mistake can darken everything by a percent or one corner by half. Small tiles see the one badly and the other
 //! well, large tiles the other way round; so both are looked at.
 
+use verdict::check::{Channel, RegionId, RegionKind};
+
 use super::bias::Expected;
 
 /// Rec. 709 weights: a fourth channel beside red, green and blue.
@@ -19,27 +21,12 @@ pub const LEVELS: u32 = 4;
 /// A weighted sum over the pixels and channels of an image, such as the mean of a tile.
 #[derive(Clone, Debug)]
 pub struct Region {
-    /// What it is, for reports: "whole image, green".
-    pub name: String,
+    /// What it is.
+    pub id: RegionId,
     /// 2^level tiles stand beside each other.
     pub level: u32,
     /// The pixels that take part, and the weights of their channels.
     pub weights: Vec<(usize, [f64; 3])>,
-    /// What is summed.
-    pub kind: Kind,
-}
-
-/// What a [`Region`] sums.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// Red, green or blue of a tile.
-    Channel,
-    /// The luminance of a tile.
-    Luminance,
-    /// All pixels, each by how well it is known.
-    Weighted,
-    /// All tiles, with weights of either sign.
-    Pattern,
 }
 
 /// All tiles of all levels, each as red, green, blue and luminance. Levels with tiles smaller than a pixel are
@@ -54,12 +41,15 @@ pub fn pyramid(width: u32, height: u32) -> Vec<Region> {
         for row in 0..across {
             for column in 0..across {
                 let tile = Tile { width, height, across, row, column };
-                let channels =
-                    [("red", [1.0, 0.0, 0.0]), ("green", [0.0, 1.0, 0.0]), ("blue", [0.0, 0.0, 1.0])];
-                for (name, channel) in channels {
-                    regions.push(tile.region(level, name, channel, Kind::Channel));
+                let channels = [
+                    (Channel::Red, [1.0, 0.0, 0.0]),
+                    (Channel::Green, [0.0, 1.0, 0.0]),
+                    (Channel::Blue, [0.0, 0.0, 1.0]),
+                ];
+                for (channel, weights) in channels {
+                    regions.push(tile.region(level, weights, RegionKind::Channel(channel)));
                 }
-                regions.push(tile.region(level, "luminance", LUMINANCE, Kind::Luminance));
+                regions.push(tile.region(level, LUMINANCE, RegionKind::Luminance));
             }
         }
     }
@@ -91,7 +81,7 @@ pub fn weighted_image(expected: &Expected) -> Region {
         .enumerate()
         .map(|(pixel, weight)| (pixel, LUMINANCE.map(|channel| channel * weight / total)))
         .collect();
-    Region { name: "whole image".to_owned(), level: 0, weights, kind: Kind::Weighted }
+    Region { id: RegionId { kind: RegionKind::Weighted, pixels: None }, level: 0, weights }
 }
 
 struct Tile {
@@ -103,18 +93,16 @@ struct Tile {
 }
 
 impl Tile {
-    fn region(&self, level: u32, channel_name: &str, channel: [f64; 3], kind: Kind) -> Region {
+    fn region(&self, level: u32, channel: [f64; 3], kind: RegionKind) -> Region {
         let range = |size: u32, index: u32| size * index / self.across..size * (index + 1) / self.across;
         let (columns, rows) = (range(self.width, self.column), range(self.height, self.row));
         let pixels = f64::from((columns.end - columns.start) * (rows.end - rows.start));
         let weight = channel.map(|weight| weight / pixels);
         let row = |y: u32| columns.clone().map(move |x| ((y * self.width + x) as usize, weight));
         let weights = rows.clone().flat_map(row).collect();
-        let place = match level {
-            0 => "whole image".to_owned(),
-            _ => format!("pixels {}–{} × {}–{}", columns.start, columns.end - 1, rows.start, rows.end - 1),
-        };
-        Region { name: format!("{place}, {channel_name}"), level, weights, kind }
+        let range = |range: &std::ops::Range<u32>| [range.start, range.end - 1];
+        let pixels = (level > 0).then(|| [range(&columns), range(&rows)]);
+        Region { id: RegionId { kind, pixels }, level, weights }
     }
 }
 
@@ -127,12 +115,13 @@ mod tests {
         let regions = pyramid(16, 12);
         assert_eq!(regions.len(), 4 * (1 + 4 + 16 + 64));
         for level in 0..LEVELS {
-            let luminances =
-                regions.iter().filter(|region| region.level == level && region.kind == Kind::Luminance);
+            let luminances = regions
+                .iter()
+                .filter(|region| region.level == level && region.id.kind == RegionKind::Luminance);
             let mut cover = vec![0; 16 * 12];
             for region in luminances {
                 let sum: f64 = region.weights.iter().flat_map(|(_, weights)| weights).sum();
-                assert!((sum - 1.0).abs() < 1e-9, "{}", region.name);
+                assert!((sum - 1.0).abs() < 1e-9, "{:?}", region.id);
                 for (pixel, _) in &region.weights {
                     cover[*pixel] += 1;
                 }

@@ -8,9 +8,11 @@
 
 use arty::sampler::batch_seed;
 
+use verdict::check::{RegionId, RegionKind};
+
 use super::batches::Batches;
 use super::bias::{Comparison, Expected, all_of, deviate, smallest_of};
-use super::regions::{Kind, LEVELS, Region};
+use super::regions::{LEVELS, Region};
 
 /// How often correct submissions may be flagged by screening, over everything that is looked at in one grade.
 pub const SCREENING_LEVEL: f64 = 0.01;
@@ -62,9 +64,7 @@ pub struct Judgement {
     /// What is decided.
     pub decision: Decision,
     /// The region that decided: the one that is biased, or else the whole image.
-    pub region: String,
-    /// What kind of region that is.
-    pub kind: Kind,
+    pub region: RegionId,
     /// That region's last comparison.
     pub comparison: Comparison,
     /// The last comparison of the whole image.
@@ -124,8 +124,7 @@ pub fn judge<E>(
         let screening = Screening::new(question, &batches);
         let judgement = |decision, region: &Region, comparison, confirmation_samples| Judgement {
             decision,
-            region: region.name.clone(),
-            kind: region.kind,
+            region: region.id,
             comparison,
             whole: screening.whole,
             detectable: screening.whole.detectable(CONFIRMATION_LEVEL),
@@ -206,7 +205,7 @@ impl Screening {
         // All tiles of the finest level at once, and the pattern of their differences as a region of its own.
         let finest = regions.iter().map(|region| region.level).max().unwrap_or(0);
         let tiles: Vec<usize> = (0..regions.len())
-            .filter(|&i| regions[i].level == finest && regions[i].kind == Kind::Luminance)
+            .filter(|&i| regions[i].level == finest && regions[i].id.kind == RegionKind::Luminance)
             .collect();
         let z = tiles.iter().map(|&i| deviate(p_values[i]) * comparisons[i].difference.signum()).collect();
         if tiles.len() > 1 {
@@ -245,10 +244,9 @@ fn pattern(regions: &[Region], comparisons: &[Comparison], tiles: &[usize]) -> R
     };
     let weights = tiles.iter().flat_map(|&i| scaled(i)).collect();
     Region {
-        name: "a pattern over all tiles".to_owned(),
+        id: RegionId { kind: RegionKind::Pattern, pixels: None },
         level: regions[tiles[0]].level,
         weights,
-        kind: Kind::Pattern,
     }
 }
 

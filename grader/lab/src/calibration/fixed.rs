@@ -128,7 +128,7 @@ impl Fixed<'_> {
         let smallest = if self.test == Test::Welch {
             let tiles: Vec<Region> = pyramid(SIZE.0, SIZE.1)
                 .into_iter()
-                .filter(|it| it.level == 3 && it.kind == Kind::Luminance)
+                .filter(|it| it.level == 3 && it.id.kind == RegionKind::Luminance)
                 .collect();
             let right = draw(self.truth, 0.0, 2);
             let p = |tile: &Region| {

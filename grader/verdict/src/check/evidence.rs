@@ -100,6 +100,8 @@ pub struct ChangeTest {
     pub change: SceneChange,
     /// Changes in the check.
     pub changes: u32,
+    /// True if the mean of the changed scene is wrong beyond chance.
+    pub is_biased: bool,
     /// What was found in the changed scene.
     pub test: MeanTest,
 }

@@ -8,8 +8,9 @@ use glam::DVec3;
 
 use super::pixels::Pixels;
 use super::polygon;
-use crate::checks::JudgedScene;
-use verdict::rubric::Hits;
+use crate::checks::SceneWithReference;
+use verdict::check::WhyNot;
+use verdict::rubric::EmissionOnHit;
 
 /// A light that has a formula.
 enum Source {
@@ -22,15 +23,19 @@ enum Source {
 /// With more lights than this nobody would want to add up their formulas.
 const MOST_LIGHTS: usize = 64;
 
-/// What each pixel shows; without what lights show of themselves where hits are off.
-pub(super) fn picture(judged: &JudgedScene, hits: Hits, rays: u32) -> Result<Pixels, String> {
+/// What each pixel shows; without the lights themselves where emission on hit is off.
+pub(super) fn picture(
+    judged: &SceneWithReference,
+    emission_on_hit: EmissionOnHit,
+    rays: u32,
+) -> Result<Pixels, WhyNot> {
     let sources = sources(&judged.description)?;
     if sources.len() > MOST_LIGHTS {
-        return Err(format!("there are {} lights, too many to add up their formulas", sources.len()));
+        return Err(WhyNot::ManyLights(sources.len()));
     }
     Pixels::integrate(&judged.scene, rays, |ray| {
         let Some(hit) = judged.scene.intersect(ray) else { return Ok([0.0; 3]) };
-        let emission = hit.emission().filter(|_| hits == Hits::On);
+        let emission = hit.emission().filter(|_| emission_on_hit == EmissionOnHit::On);
         let emitted = emission.map_or([0.0; 3], |emission| emission.radiance.to_array().map(f64::from));
         // A diffuse surface sends the same in every direction: f = ρ / π.
         let reflected = hit.bsdf().eval(hit.normal).to_array().map(f64::from);
@@ -45,7 +50,7 @@ pub(super) fn picture(judged: &JudgedScene, hits: Hits, rays: u32) -> Result<Pix
     })
 }
 
-fn sources(description: &SceneDescription) -> Result<Vec<Source>, String> {
+fn sources(description: &SceneDescription) -> Result<Vec<Source>, WhyNot> {
     let mut sources = Vec::new();
     for light in &description.lights {
         sources.push(match *light {
@@ -57,7 +62,7 @@ fn sources(description: &SceneDescription) -> Result<Vec<Source>, String> {
                 corners: vertices.map(Vec3::as_dvec3),
                 radiance: radiance.to_array().map(f64::from),
             },
-            LightDescription::Spot { .. } => return Err("a spot light has no closed form here".to_owned()),
+            LightDescription::Spot { .. } => return Err(WhyNot::SpotLight),
         });
     }
     for mesh in &description.meshes {
@@ -73,7 +78,7 @@ fn sources(description: &SceneDescription) -> Result<Vec<Source>, String> {
 }
 
 impl Source {
-    fn irradiance(&self, judged: &JudgedScene, hit: &Hit<'_>) -> Result<[f64; 3], String> {
+    fn irradiance(&self, judged: &SceneWithReference, hit: &Hit<'_>) -> Result<[f64; 3], WhyNot> {
         let (point, normal) = (hit.point.as_dvec3(), hit.normal.as_dvec3());
         match self {
             Self::Point { position, intensity } => {
@@ -97,7 +102,7 @@ impl Source {
                 {
                     let above = normal.dot(place - point) > 0.0;
                     if above && judged.scene.occluded(hit, place.as_vec3()) {
-                        return Err("a light with an area is partly hidden".to_owned());
+                        return Err(WhyNot::PartlyHidden);
                     }
                 }
                 Ok(radiance.map(|radiance| radiance * form))

@@ -8,46 +8,72 @@ mod polygon;
 
 use arty::scene::{SceneDescription, Specular};
 
-use super::means::{self, Picture};
-use super::{Bench, JudgedScene, Stop, mean_bias};
-use pixels::{Pixels, RAYS};
+use verdict::check::{CheckKind, Evidence, WhyNot};
 use verdict::error::Error;
-use verdict::report::CheckResult;
-use verdict::rubric::{CheckSpec, Hits};
+use verdict::rubric::{CheckSpec, EmissionOnHit};
+
+use super::means::{self, Picture};
+use super::{Check, GradeContext, JobError, Observation, Outcome, SceneWithReference, mean_bias};
+use pixels::{Pixels, RAYS};
 
 /// Rays for each pixel that show whether there is a closed form.
 const A_FEW: u32 = 2;
 
-pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult) -> Result<(), Stop> {
-    let judged = bench.scene(spec);
-    let pixels = answer(judged, spec.max_bounces, spec.hits, RAYS).map_err(|why| {
-        Error::Input(format!("closed-form in `{}` with {} bounces: {why}", spec.scene, spec.max_bounces))
-    })?;
-    let mut expected = mean_bias::expected(spec, &judged.reference)?;
-    expected.mean = pixels.mean;
-    expected.error = pixels.error;
-    means::run(bench, spec, &Picture::of(bench, spec, &[&judged.description], &expected), result)
-}
+pub(super) struct ClosedForm;
 
-/// Why a scene has no closed form with that many bounces; `None` if it has one.
-pub fn why_no_closed_form(judged: &JudgedScene, max_bounces: u32) -> Option<String> {
-    answer(judged, max_bounces, Hits::On, A_FEW).err()
+impl Check for ClosedForm {
+    fn kind(&self) -> CheckKind {
+        CheckKind::ClosedForm
+    }
+
+    fn isolates_next_event_estimation(&self) -> bool {
+        true
+    }
+
+    fn telling_bounces(&self, _: u32) -> u32 {
+        // Direct light has a closed form in more scenes than all of it.
+        1
+    }
+
+    fn applies(&self, scene: &SceneWithReference, spec: &CheckSpec) -> Result<(), WhyNot> {
+        answer(scene, spec.max_bounces, EmissionOnHit::On, A_FEW).map(drop)
+    }
+
+    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<Outcome, JobError> {
+        let scene = context.scene(spec);
+        let pixels = answer(scene, spec.max_bounces, spec.emission_on_hit, RAYS)
+            .map_err(|why| Error::Input(format!("{}: no closed form ({why:?})", spec.id())))?;
+        let mut expected = mean_bias::expected(spec, &scene.reference)?;
+        expected.mean = pixels.mean;
+        expected.error = pixels.error;
+        let scenes = [&scene.description];
+        means::run(context, spec, &Picture::of(context, spec, &scenes, &expected), Evidence::ClosedForm)
+    }
+
+    fn observations(&self, evidence: &Evidence) -> Vec<Observation> {
+        evidence.mean_test().map(Observation::of_mean).unwrap_or_default()
+    }
 }
 
 /// What each pixel should be, or why nobody knows.
-fn answer(judged: &JudgedScene, max_bounces: u32, hits: Hits, rays: u32) -> Result<Pixels, String> {
+fn answer(
+    judged: &SceneWithReference,
+    max_bounces: u32,
+    emission_on_hit: EmissionOnHit,
+    rays: u32,
+) -> Result<Pixels, WhyNot> {
     if !only_flat_diffuse(&judged.description) {
-        return Err("there is more than flat, diffuse, plainly coloured surfaces".to_owned());
+        return Err(WhyNot::NotFlatDiffuse);
     }
-    if hits == Hits::On
+    if emission_on_hit == EmissionOnHit::On
         && let Some(planes) = planes::recognise(&judged.description)
     {
         return planes.picture(&judged.scene, max_bounces, rays);
     }
     if max_bounces != 1 {
-        return Err("only light that is scattered once has a closed form".to_owned());
+        return Err(WhyNot::SeveralBounces);
     }
-    direct::picture(judged, hits, rays)
+    direct::picture(judged, emission_on_hit, rays)
 }
 
 fn only_flat_diffuse(description: &SceneDescription) -> bool {
@@ -77,9 +103,9 @@ mod tests {
             ("parallel_planes", 8),
         ] {
             let judged = judged(name);
-            let pixels =
-                answer(&judged, max_bounces, Hits::On, RAYS).unwrap_or_else(|why| panic!("{name}: {why}"));
-            let view = verdict::rubric::View { max_bounces, hits: Hits::On };
+            let pixels = answer(&judged, max_bounces, EmissionOnHit::On, RAYS)
+                .unwrap_or_else(|why| panic!("{name}: {why:?}"));
+            let view = verdict::rubric::View { max_bounces, emission_on_hit: EmissionOnHit::On };
             let rendered = &judged.reference.views[&view];
             let brightest = rendered.mean.iter().flatten().fold(0.0, |most: f64, &mean| most.max(mean));
             for (pixel, exact) in pixels.mean.iter().enumerate() {
@@ -100,12 +126,12 @@ mod tests {
     #[test]
     fn other_scenes_have_none_and_say_why() {
         for (name, max_bounces, expected) in [
-            ("point_plane", 2, "scattered once"),
-            ("cornell_box", 1, "partly hidden"),
-            ("cornell_box_glossy", 1, "more than flat, diffuse"),
+            ("point_plane", 2, WhyNot::SeveralBounces),
+            ("cornell_box", 1, WhyNot::PartlyHidden),
+            ("cornell_box_glossy", 1, WhyNot::NotFlatDiffuse),
         ] {
-            let why = why_no_closed_form(&judged(name), max_bounces).expect(name);
-            assert!(why.contains(expected), "{name}: {why}");
+            let why = answer(&judged(name), max_bounces, EmissionOnHit::On, A_FEW).err();
+            assert_eq!(why, Some(expected), "{name}");
         }
     }
 }

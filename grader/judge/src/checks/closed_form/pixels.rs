@@ -2,6 +2,7 @@
 
 use arty::ray::Ray;
 use arty::scene::Scene;
+use verdict::check::WhyNot;
 
 use crate::reference::SIZE;
 
@@ -27,8 +28,8 @@ impl Pixels {
     pub(super) fn integrate(
         scene: &Scene,
         rays: u32,
-        mut radiance: impl FnMut(&Ray) -> Result<[f64; 3], String>,
-    ) -> Result<Self, String> {
+        mut radiance: impl FnMut(&Ray) -> Result<[f64; 3], WhyNot>,
+    ) -> Result<Self, WhyNot> {
         let camera = scene.camera(SIZE.0, SIZE.1);
         let count = (SIZE.0 * SIZE.1) as usize;
         let mut pixels = Self { mean: Vec::with_capacity(count), error: Vec::with_capacity(count) };

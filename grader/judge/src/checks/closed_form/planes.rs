@@ -2,6 +2,7 @@
 
 use arty::scene::{Material, Scene, SceneDescription};
 use glam::DVec3;
+use verdict::check::WhyNot;
 
 use super::pixels::Pixels;
 
@@ -51,7 +52,7 @@ pub(super) fn recognise(description: &SceneDescription) -> Option<Planes<'_>> {
 
 impl Planes<'_> {
     /// After up to k bounces each plane sends L⁽ᵏ⁾ = L_e + ρ L′⁽ᵏ⁻¹⁾, with L′ that of the other one.
-    pub(super) fn picture(&self, scene: &Scene, max_bounces: u32, rays: u32) -> Result<Pixels, String> {
+    pub(super) fn picture(&self, scene: &Scene, max_bounces: u32, rays: u32) -> Result<Pixels, WhyNot> {
         let emitted = self.materials.map(|material| material.emission.to_array().map(f64::from));
         let albedo = self.materials.map(|material| material.diffuse.to_array().map(f64::from));
         let mut radiance = emitted;

@@ -5,15 +5,15 @@
 
 mod draw;
 
-use arty::integrator::Settings;
 use arty::sampler::{Sampler, batch_seed};
-
-use super::means::{self, Numerics, Picture};
-use super::{Bench, Stop};
-use crate::statistics::sequential::Decision;
+use verdict::check::{CheckKind, Evidence, VariantTest, Verdict};
 use verdict::error::Error;
-use verdict::report::{CheckResult, Verdict};
 use verdict::rubric::CheckSpec;
+
+use super::context::settings_of;
+use super::means::{self, Anomalies, Picture};
+use super::{Check, GradeContext, JobError, Observation, Outcome};
+use crate::statistics::sequential::Decision;
 
 /// Scenes in each check.
 const SCENES: u64 = 2;
@@ -25,41 +25,65 @@ const SAMPLES: u32 = 2048;
 /// correct program undecided, in a scene that is noisier than most.
 const LOOKS: usize = 4;
 
-pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult) -> Result<(), Stop> {
-    let oracle = bench
-        .oracle
-        .ok_or_else(|| Error::Harness(format!("{}: there is no solution to compare with", spec.id())))?;
-    let settings = Settings { technique: spec.technique, max_bounces: spec.max_bounces };
-    let mut samples = 0;
-    for number in 0..SCENES {
-        let seed = batch_seed(bench.seed_of(spec), number);
-        let scene = draw::scene(&mut Sampler::new(seed, (0, 0), 0));
-        let judge = |attempt: u64| {
-            let seed = batch_seed(seed, attempt);
-            let expected = oracle.expected(&scene, settings, SAMPLES, seed ^ 1, bench.threads)?;
-            let scenes = [&scene];
-            let mut picture = Picture::of(bench, spec, &scenes, &expected);
-            picture.screening_level /= SCENES as f64;
-            picture.looks = LOOKS.min(bench.looks);
-            picture.seed = seed;
-            let mut numerics = Numerics::default();
-            let judgement = picture.judge(bench, &mut numerics)?;
-            Ok::<_, Stop>((judgement, numerics))
-        };
-        let (mut judgement, mut numerics) = judge(1)?;
-        if judgement.decision == Decision::Biased {
-            // The confirmation that was had rests on the same rendering of the solution: once more with another.
-            samples += judgement.samples;
-            (judgement, numerics) = judge(2)?;
-        }
-        samples += judgement.samples;
-        means::describe(result, &judgement, spec.tolerance);
-        numerics.enter(result, |_| None);
-        if result.verdict != Verdict::Pass {
-            result.explanation = format!("in scene {} of {SCENES}, {}", number + 1, result.explanation);
-            break;
-        }
+pub(super) struct HiddenVariants;
+
+impl Check for HiddenVariants {
+    fn kind(&self) -> CheckKind {
+        CheckKind::HiddenVariants
     }
-    result.samples = samples;
-    Ok(())
+
+    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<Outcome, JobError> {
+        let mut samples = 0;
+        let mut last = None;
+        for number in 0..SCENES {
+            let outcome = judge(context, spec, number, &mut samples)?;
+            let passes = outcome.verdict == Verdict::Pass;
+            last = Some(outcome);
+            if !passes {
+                break;
+            }
+        }
+        let outcome = last.expect("there are several scenes");
+        Ok(Outcome { samples, ..outcome })
+    }
+
+    fn observations(&self, _: &Evidence) -> Vec<Observation> {
+        // Other scenes with each seed: nothing to compare.
+        Vec::new()
+    }
+}
+
+/// Judges one of the scenes.
+fn judge(
+    context: &GradeContext<'_>,
+    spec: &CheckSpec,
+    number: u64,
+    samples: &mut u64,
+) -> Result<Outcome, JobError> {
+    let no_solution = || Error::Harness(format!("{}: there is no solution to compare with", spec.id()));
+    let oracle = context.oracle.ok_or_else(no_solution)?;
+    let seed = batch_seed(context.seed_of(spec), number);
+    let scene = draw::scene(&mut Sampler::new(seed, (0, 0), 0));
+    let mut attempt = |attempt: u64| {
+        let seed = batch_seed(seed, attempt);
+        let expected = oracle.expected(&scene, settings_of(spec), SAMPLES, seed ^ 1, context.threads)?;
+        let scenes = [&scene];
+        let mut picture = Picture::of(context, spec, &scenes, &expected);
+        picture.screening_level /= SCENES as f64;
+        picture.looks = LOOKS.min(context.looks);
+        picture.seed = seed;
+        let mut anomalies = Anomalies::default();
+        let judgement = picture.judge(context, &mut anomalies)?;
+        *samples += judgement.samples;
+        Ok::<_, JobError>((judgement, anomalies))
+    };
+    let (mut judgement, mut anomalies) = attempt(1)?;
+    if judgement.decision == Decision::Biased {
+        // Its confirmation rests on the same rendering of the solution: once more with another.
+        (judgement, anomalies) = attempt(2)?;
+    }
+    let test = means::mean_test(&judgement, spec.tolerance);
+    let evidence = VariantTest { scene: number as u32 + 1, scenes: SCENES as u32, test };
+    let outcome = means::conclude(&judgement, Evidence::HiddenVariants(evidence), 0);
+    Ok(outcome.with(anomalies.numerics(None)))
 }

@@ -9,87 +9,93 @@ mod transform;
 pub(super) use transform::Transform;
 
 use arty::scene::SceneDescription;
-
-use super::means::{self, Numerics, Picture};
-use super::{Bench, Stop, mean_bias};
-use crate::statistics::sequential::{Decision, Judgement};
-use verdict::report::{CheckResult, Verdict};
+use verdict::check::{ChangeTest, CheckKind, Evidence, SceneChange};
 use verdict::rubric::CheckSpec;
+
+use super::means::{self, Anomalies, Picture};
+use super::{Check, GradeContext, JobError, Observation, Outcome, WrongPlace, mean_bias};
+use crate::statistics::sequential::{Decision, Judgement};
 
 /// A changed scene (several: their sum), and how many times as bright it is.
 struct Change {
-    /// In words that continue "with".
-    name: &'static str,
+    change: SceneChange,
     scenes: Vec<SceneDescription>,
     brighter: f64,
 }
 
-pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult) -> Result<(), Stop> {
-    let judged = bench.scene(spec);
-    let changes = changes(&judged.description);
-    let reference = mean_bias::expected(spec, &judged.reference)?;
-    let mut numerics = Numerics::default();
-    let mut worst: Option<(&Change, Judgement)> = None;
-    let mut biased = Vec::new();
-    for (index, change) in changes.iter().enumerate() {
-        let expected = reference.brightened(change.brighter);
-        let scenes: Vec<&SceneDescription> = change.scenes.iter().collect();
-        let mut picture = Picture::of(bench, spec, &scenes, &expected);
-        picture.screening_level /= changes.len() as f64;
-        picture.seed ^= (index as u64).rotate_right(8);
-        let judgement = picture.judge(bench, &mut numerics)?;
-        result.samples += judgement.samples;
-        if judgement.decision == Decision::Biased {
-            biased.push((change.name.to_owned(), judgement.whole.relative()));
-        }
-        let grade = |decision| match decision {
-            Decision::Unbiased => 0,
-            Decision::Unclear => 1,
-            Decision::Biased => 2,
-        };
-        if worst.as_ref().is_none_or(|(_, other)| grade(judgement.decision) > grade(other.decision)) {
-            worst = Some((change, judgement));
-        }
-        if worst.as_ref().is_some_and(|(_, worst)| worst.decision == Decision::Biased) {
-            break;
-        }
+pub(super) struct Metamorphic;
+
+impl Check for Metamorphic {
+    fn kind(&self) -> CheckKind {
+        CheckKind::Metamorphic
     }
-    let Some((change, judgement)) = worst else { return Ok(()) };
-    let samples = result.samples;
-    means::describe(result, &judgement, spec.tolerance);
-    result.samples = samples;
-    result.details.extend(biased.into_iter().filter(|(_, effect)| effect.is_finite()));
-    result.explanation = if result.verdict == Verdict::Pass {
-        format!("{} changes of the scene change the picture as they should", changes.len())
-    } else {
-        format!("with {}, {}", change.name, result.explanation)
-    };
-    numerics.enter(result, |_| None);
-    Ok(())
+
+    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<Outcome, JobError> {
+        let scene = context.scene(spec);
+        let changes = changes(&scene.description);
+        let reference = mean_bias::expected(spec, &scene.reference)?;
+        let (mut anomalies, mut samples) = (Anomalies::default(), 0);
+        let mut worst: Option<(SceneChange, Judgement)> = None;
+        for (index, Change { change, scenes, brighter }) in changes.iter().enumerate() {
+            let expected = reference.brightened(*brighter);
+            let scenes: Vec<&SceneDescription> = scenes.iter().collect();
+            let mut picture = Picture::of(context, spec, &scenes, &expected);
+            picture.screening_level /= changes.len() as f64;
+            picture.seed ^= (index as u64).rotate_right(8);
+            let judgement = picture.judge(context, &mut anomalies)?;
+            samples += judgement.samples;
+            let is_biased = judgement.decision == Decision::Biased;
+            let rank = |decision| match decision {
+                Decision::Unbiased => 0,
+                Decision::Unclear => 1,
+                Decision::Biased => 2,
+            };
+            if worst.as_ref().is_none_or(|(_, other)| rank(judgement.decision) > rank(other.decision)) {
+                worst = Some((*change, judgement));
+            }
+            if is_biased {
+                break;
+            }
+        }
+        let (change, judgement) = worst.expect("every scene can be changed");
+        let test = means::mean_test(&judgement, spec.tolerance);
+        let is_biased = judgement.decision == Decision::Biased;
+        let evidence = ChangeTest { change, changes: changes.len() as u32, is_biased, test };
+        let outcome = means::conclude(&judgement, Evidence::Metamorphic(evidence), samples);
+        Ok(outcome.with(anomalies.numerics(None)))
+    }
+
+    fn observations(&self, evidence: &Evidence) -> Vec<Observation> {
+        let Evidence::Metamorphic(ChangeTest { change, is_biased, test, .. }) = evidence else {
+            return Vec::new();
+        };
+        let place = is_biased.then(|| Observation::wrong_at(WrongPlace::Change(*change)));
+        Observation::of_mean(test).into_iter().chain(place).collect()
+    }
 }
 
 /// All changes that mean something in the scene.
 fn changes(scene: &SceneDescription) -> Vec<Change> {
-    let one = |name, changed: SceneDescription| Change { name, scenes: vec![changed], brighter: 1.0 };
-    let brighter = |name, factor: f32| Change {
-        name,
+    let one = |change, changed: SceneDescription| Change { change, scenes: vec![changed], brighter: 1.0 };
+    let brighter = |change, factor: f32| Change {
+        change,
         scenes: vec![transform::brightened(scene, factor)],
         brighter: f64::from(factor),
     };
     let moved = |transform: Transform| transform.apply(scene);
     let mut changes = vec![
-        brighter("all lights 1000 times as bright", 1000.0),
-        brighter("all lights a thousandth as bright", 1e-3),
-        one("all lengths 100 times as long", moved(Transform::scale(100.0))),
-        one("all lengths a hundredth as long", moved(Transform::scale(0.01))),
-        one("the scene turned", moved(Transform::turn())),
-        one("the scene moved", moved(Transform::shift())),
-        one("more and smaller triangles", transform::tessellated(scene)),
-        one("each light split into two", transform::lights_split(scene)),
-        one("black things beside the scene", transform::with_things_beside(scene)),
+        brighter(SceneChange::Brighter, 1000.0),
+        brighter(SceneChange::Dimmer, 1e-3),
+        one(SceneChange::Larger, moved(Transform::scale(100.0))),
+        one(SceneChange::Smaller, moved(Transform::scale(0.01))),
+        one(SceneChange::Rotated, moved(Transform::turn())),
+        one(SceneChange::Moved, moved(Transform::shift())),
+        one(SceneChange::Tessellated, transform::tessellated(scene)),
+        one(SceneChange::LightsSplit, transform::lights_split(scene)),
+        one(SceneChange::BlackObjects, transform::with_things_beside(scene)),
     ];
     if let Some(parts) = transform::lights_apart(scene) {
-        changes.push(Change { name: "the lights in two scenes", scenes: parts.into(), brighter: 1.0 });
+        changes.push(Change { change: SceneChange::LightsApart, scenes: parts.into(), brighter: 1.0 });
     }
     changes
 }

@@ -6,27 +6,27 @@
 //! weights it is right too.
 //!
 //! Any partition of unity that rises with p_L / p_B passes. What else the weights depend on shows in a regression of
-//! their logits ([`exponents`]).
+//! their logits ([`form`]).
 
-mod exponents;
+mod form;
+mod only_way;
 mod scenes;
-mod special;
 
-use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
-use arty::integrator::Settings;
+use arty::integrator::{Settings, Technique};
 use arty::sampler::Sampler;
-use host::protocol::{ProbeJob, ProbedPath};
-use verdict::report::{CONSTANT_WEIGHTS, Weights};
-
-use super::{Bench, Stop};
-use exponents::Side;
 use harness::host_process::HostProcess;
+use host::protocol::{ProbeJob, ProbedPath};
+use verdict::check::{
+    CheckKind, Evidence, MeasuredWeights, OnlyWayWeight, Reason, WeightFault, WeightForm, WeightTest, WhyNot,
+};
+use verdict::rubric::CheckSpec;
+
+use super::{Check, GradeContext, JobError, Observation, Outcome, Quantity, SceneWithReference};
+use only_way::OnlyWayTest;
 use scenes::MANY_LIGHTS;
 pub(super) use scenes::{Configuration, Plan, draw};
-use special::Special;
-use verdict::report::{CheckResult, Reason, Verdict};
-use verdict::rubric::CheckSpec;
 
 /// How far the sum of two weights may be from one.
 const TOLERATED: f64 = 1e-4;
@@ -43,50 +43,84 @@ const MODERATE: usize = 96;
 const EXTREME: usize = 48;
 const CHAINS: usize = 24;
 
-/// The outcome, to be put into the check's result.
-struct Outcome {
-    verdict: Verdict,
-    reason: Reason,
-    explanation: String,
-    weights: Option<Weights>,
-    details: BTreeMap<String, f64>,
-    samples: u64,
-}
-
-impl Outcome {
-    fn fail(reason: Reason, explanation: String) -> Self {
-        Self {
-            verdict: Verdict::Fail,
-            reason,
-            explanation,
-            weights: None,
-            details: BTreeMap::new(),
-            samples: 0,
-        }
-    }
-}
-
 /// The weights of one configuration.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Observation {
+pub(super) struct Reading {
     light: f64,
     bsdf: f64,
     /// Standard error of their sum.
     error: f64,
 }
 
-pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult) -> Result<(), Stop> {
-    let outcome = observe_all(&mut bench.start()?, spec, bench.seed_of(spec))?;
-    result.verdict = outcome.verdict;
-    result.reason = outcome.reason;
-    result.explanation = outcome.explanation;
-    result.weights = outcome.weights;
-    result.details = outcome.details;
-    result.samples = outcome.samples;
-    Ok(())
+pub(super) struct MisWeights;
+
+impl Check for MisWeights {
+    fn kind(&self) -> CheckKind {
+        CheckKind::MisWeights
+    }
+
+    fn techniques(&self) -> &'static [Technique] {
+        &[Technique::Mis]
+    }
+
+    fn bounces(&self) -> RangeInclusive<u32> {
+        1..=3
+    }
+
+    fn applies(&self, scene: &SceneWithReference, _: &CheckSpec) -> Result<(), WhyNot> {
+        let features = scene.scene.features();
+        if features.area_lights == 0 {
+            Err(WhyNot::NothingToWeigh)
+        } else if features.lit_surfaces == 0 {
+            Err(WhyNot::NothingLit)
+        } else {
+            Ok(())
+        }
+    }
+
+    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<Outcome, JobError> {
+        let (test, samples) = read_all(&mut context.start()?, spec, context.seed_of(spec))?;
+        let reason = match test.fault {
+            None => Reason::None,
+            Some(WeightFault::NotANumber { .. }) => Reason::Numerics,
+            Some(_) => Reason::Weights,
+        };
+        Ok(Outcome::new(reason, Evidence::MisWeights(test), samples))
+    }
+
+    fn observations(&self, evidence: &Evidence) -> Vec<Observation> {
+        let Evidence::MisWeights(WeightTest { measured: Some(measured), .. }) = evidence else {
+            return Vec::new();
+        };
+        let mut all = Vec::new();
+        for (of_light, form) in [(true, measured.light), (false, measured.bsdf)] {
+            match form {
+                WeightForm::Constant(value) => {
+                    all.push(Observation::exact(Quantity::WeightConstant { of_light }, value));
+                }
+                WeightForm::Powers(exponents) => {
+                    all.extend((0..).zip(exponents).map(|(factor, exponent)| {
+                        Observation::exact(Quantity::WeightExponent { of_light, factor }, exponent)
+                    }))
+                }
+                WeightForm::Other => {}
+            }
+        }
+        let deviations =
+            [(true, measured.deviation_at_first_vertex), (false, measured.deviation_at_later_vertices)];
+        for (first_vertex, deviation) in deviations {
+            let value = deviation.clamp(1e-4, 10.0).log10();
+            all.push(Observation::exact(Quantity::WeightDeviation { first_vertex }, value));
+        }
+        let only_way =
+            |it: &OnlyWayWeight| Some(Observation::exact(Quantity::OnlyWayWeight(it.light), it.weight?));
+        all.extend(measured.only_way.iter().filter_map(only_way));
+        all
+    }
 }
 
-fn observe_all(process: &mut HostProcess, spec: &CheckSpec, seed: u64) -> Result<Outcome, Stop> {
+/// Reads the weights of many configurations, and how many paths that took.
+fn read_all(process: &mut HostProcess, spec: &CheckSpec, seed: u64) -> Result<(WeightTest, u64), JobError> {
     let mut random = Sampler::new(seed, (0, 0), 0);
     let mut configurations = Vec::new();
     let mut add = |count: usize, plan: Plan| {
@@ -105,58 +139,49 @@ fn observe_all(process: &mut HostProcess, spec: &CheckSpec, seed: u64) -> Result
     loop {
         let mut ask =
             |scenes: Vec<_>| process.probe(&ProbeJob { settings, scenes, samples, seed, stratified: false });
-        let mut observations = Vec::new();
+        let mut readings = Vec::new();
         let mut varies = false;
-        // Who asks every light picks none: then the density of a light sample has no probability of the pick in it.
-        let mut all_asked = true;
+        // A path tracer that samples every light selects none: then the density has no selection probability in it.
+        let mut samples_all_lights = true;
         for (vertices, configuration) in &configurations {
             let scenes = vec![configuration.light_side.clone(), configuration.bsdf_side.clone()];
             let paths = ask(scenes)??;
             if *vertices == 1 && configuration.lights == MANY_LIGHTS {
-                all_asked &= paths[0].iter().all(|path| path.light_samples as usize >= MANY_LIGHTS);
+                samples_all_lights &= paths[0].iter().all(|path| path.light_samples as usize >= MANY_LIGHTS);
             }
-            match observe(configuration, &paths) {
-                Ok(observation) => {
-                    varies |= observation.error > 0.01 * TOLERATED;
-                    observations.push(observation);
-                }
-                Err(explanation) => return Ok(Outcome::fail(Reason::Numerics, explanation)),
-            }
+            let Some(reading) = read(configuration, &paths) else {
+                let Configuration { p_light: light, p_bsdf: bsdf, .. } = *configuration;
+                let fault = Some(WeightFault::NotANumber { light, bsdf });
+                return Ok((WeightTest { fault, measured: None }, 0));
+            };
+            varies |= reading.error > 0.01 * TOLERATED;
+            readings.push(reading);
         }
         if varies && samples < MANY {
             samples = MANY;
             continue;
         }
-        let special = special::look(process, settings, samples, seed)?;
-        if all_asked {
+        let only_way = only_way::look(process, settings, samples, seed)?;
+        if samples_all_lights {
             for (_, configuration) in &mut configurations {
                 configuration.p_light *= configuration.lights as f64;
             }
         }
-        let mut outcome = judge(&configurations, &observations, &special);
-        outcome.samples = samples * 2 * configurations.len() as u64;
-        return Ok(outcome);
+        let paths = samples * 2 * configurations.len() as u64;
+        return Ok((judge(&configurations, &readings, only_way), paths));
     }
 }
 
-/// Reads the weights off the paths of both scenes of a configuration.
-fn observe(
-    configuration: &Configuration,
-    paths: &[Vec<ProbedPath>],
-) -> std::result::Result<Observation, String> {
+/// Reads the weights off the paths of both scenes of a configuration; `None` if a path gives no number.
+fn read(configuration: &Configuration, paths: &[Vec<ProbedPath>]) -> Option<Reading> {
     let side = |paths: &[ProbedPath], density: f64| {
-        let (mean, error) = mean_and_error(paths).ok_or_else(|| {
-            format!(
-                "a path gives NaN or infinity where the densities per solid angle are {:.1e} (light) and {:.1e} (BSDF)",
-                configuration.p_light, configuration.p_bsdf
-            )
-        })?;
+        let (mean, error) = mean_and_error(paths)?;
         let scale = density / configuration.contribution;
-        Ok::<_, String>((mean * scale, error * scale))
+        Some((mean * scale, error * scale))
     };
     let (light, light_error) = side(&paths[0], configuration.p_light)?;
     let (bsdf, bsdf_error) = side(&paths[1], configuration.p_bsdf)?;
-    Ok(Observation { light, bsdf, error: light_error.hypot(bsdf_error) })
+    Some(Reading { light, bsdf, error: light_error.hypot(bsdf_error) })
 }
 
 /// Mean of the first channel and its standard error, which is 0 if the paths agree but for rounding; `None` if a path
@@ -175,65 +200,40 @@ pub(super) fn mean_and_error(paths: &[ProbedPath]) -> Option<(f64, f64)> {
 
 fn judge(
     configurations: &[(usize, Configuration)],
-    observations: &[Observation],
-    special: &Special,
-) -> Outcome {
-    let excess = |observation: &Observation| {
-        ((observation.light + observation.bsdf - 1.0).abs() - NOISE * observation.error).max(0.0)
-    };
-    let worst = |observations: &[Observation]| observations.iter().map(excess).fold(0.0, f64::max);
+    readings: &[Reading],
+    only_way: OnlyWayTest,
+) -> WeightTest {
+    let excess =
+        |reading: &Reading| ((reading.light + reading.bsdf - 1.0).abs() - NOISE * reading.error).max(0.0);
+    let worst = |readings: &[Reading]| readings.iter().map(excess).fold(0.0, f64::max);
     let single = configurations.iter().filter(|(vertices, _)| *vertices == 1).count();
-    let moderate: Vec<(&Configuration, Observation)> =
-        configurations.iter().map(|(_, it)| it).zip(observations.iter().copied()).take(MODERATE).collect();
-    let light = Side::of(&moderate, |it| it.light);
-    let bsdf = Side::of(&moderate, |it| 1.0 - it.bsdf);
-    let weights = Weights {
-        largest_deviation: worst(observations),
-        light_exponents: light.exponents(),
-        bsdf_exponents: bsdf.exponents(),
-        measured: measured(&moderate),
+    let (first, later) = readings.split_at(single);
+    let moderate: Vec<(&Configuration, Reading)> =
+        configurations.iter().map(|(_, it)| it).zip(readings.iter().copied()).take(MODERATE).collect();
+    let sums = first.iter().map(|it| it.light + it.bsdf);
+    let (min, max) = sums.fold((f64::INFINITY, 0.0f64), |(min, max), sum| (min.min(sum), max.max(sum)));
+    let measured = MeasuredWeights {
+        light: form::of(&moderate, |it| it.light),
+        bsdf: form::of(&moderate, |it| 1.0 - it.bsdf),
+        sum: [min, max],
+        deviation_at_first_vertex: worst(first),
+        deviation_at_later_vertices: worst(later),
+        only_way: only_way.weights,
+        points: points(&moderate),
     };
-    let mut details = special.weights.clone();
-    details.insert("deviation at the first vertex".to_owned(), worst(&observations[..single]));
-    details.insert("deviation at later vertices".to_owned(), worst(&observations[single..]));
-    for (name, side) in CONSTANT_WEIGHTS.into_iter().zip([&light, &bsdf]) {
-        if let Side::Constant(value) = side {
-            details.insert(name.to_owned(), *value);
-        }
-    }
-    let sums_to_one = worst(&observations[..single]) < TOLERATED;
-    let verdict = if sums_to_one && rises(&moderate) {
-        if worst(&observations[single..]) >= TOLERATED {
-            Err("the weights are right at the first vertex of a path and wrong at later ones: what is remembered of \
-                 the last bounce is not that of the last bounce"
-                .to_owned())
-        } else if let Some(complaint) = &special.complaint {
-            Err(complaint.clone())
-        } else {
-            Ok(exponents::remark(&light, weights.largest_deviation))
-        }
+    let fault = if measured.deviation_at_first_vertex >= TOLERATED || !rises(&moderate) {
+        Some(WeightFault::FirstVertex)
+    } else if measured.deviation_at_later_vertices >= TOLERATED {
+        Some(WeightFault::LaterVertices)
     } else {
-        let sum = if sums_to_one {
-            String::new()
-        } else {
-            let (least, most) = observations[..single]
-                .iter()
-                .map(|it| it.light + it.bsdf)
-                .fold((f64::INFINITY, 0.0f64), |(least, most), sum| (least.min(sum), most.max(sum)));
-            format!("the two weights of a path sum to {least:.3} to {most:.3} instead of 1; ")
-        };
-        Err(format!("{sum}{}", exponents::explain(&light, &bsdf)))
+        only_way.wrong.map(WeightFault::OnlyWay)
     };
-    let (verdict, reason, explanation) = match verdict {
-        Ok(remark) => (Verdict::Pass, Reason::None, remark),
-        Err(complaint) => (Verdict::Fail, Reason::Weights, complaint),
-    };
-    Outcome { verdict, reason, explanation, weights: Some(weights), details, samples: 0 }
+    WeightTest { fault, measured: Some(measured) }
 }
 
 /// The weights over log₁₀ (p_L / p_B), for a plot; what is no number is left out.
-fn measured(moderate: &[(&Configuration, Observation)]) -> Vec<[f32; 3]> {
-    let point = |(it, seen): &(&Configuration, Observation)| {
+fn points(moderate: &[(&Configuration, Reading)]) -> Vec<[f32; 3]> {
+    let point = |(it, seen): &(&Configuration, Reading)| {
         [(it.p_light / it.p_bsdf).log10(), seen.light, seen.bsdf].map(|value| value as f32)
     };
     let mut points: Vec<[f32; 3]> = moderate.iter().map(point).collect();
@@ -243,10 +243,10 @@ fn measured(moderate: &[(&Configuration, Observation)]) -> Vec<[f32; 3]> {
 }
 
 /// True if the weight of light samples never falls as p_L / p_B rises, and rises somewhere.
-fn rises(moderate: &[(&Configuration, Observation)]) -> bool {
+fn rises(moderate: &[(&Configuration, Reading)]) -> bool {
     let mut sorted: Vec<_> = moderate.iter().map(|(it, seen)| (it.p_light / it.p_bsdf, *seen)).collect();
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut highest = Observation { light: f64::NEG_INFINITY, bsdf: 0.0, error: 0.0 };
+    let mut highest = Reading { light: f64::NEG_INFINITY, bsdf: 0.0, error: 0.0 };
     for (_, seen) in &sorted {
         if seen.light + TOLERATED + NOISE * seen.error.hypot(highest.error) < highest.light {
             return false;

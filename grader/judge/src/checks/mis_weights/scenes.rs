@@ -10,11 +10,10 @@ use std::f32::consts::TAU;
 use arty::math::{Frame, Rgb, Vec3, direction_and_distance};
 use arty::ray::Ray;
 use arty::sampler::Sampler;
-use arty::scene::{
-    CameraDescription, Defaults, LightDescription, Material, Mesh, MeshTriangle, Scene, SceneDescription,
-    Specular,
-};
+use arty::scene::{LightDescription, Scene, SceneDescription};
 use host::protocol::{ScriptedBsdf, ScriptedLight, ScriptedScene};
+
+use crate::scenes;
 
 /// What a configuration is drawn from.
 #[derive(Clone, Copy, Debug)]
@@ -240,34 +239,19 @@ impl Builder {
     }
 
     fn finish(self, vertices: usize, lights: &[[Vec3; 3]]) -> SceneDescription {
-        let material = || Material {
-            name: "scripted".to_owned(),
-            diffuse: Rgb::BLACK,
-            diffuse_map: None,
-            specular: Specular::None,
-            emission: Rgb::BLACK,
-        };
-        let triangle = |index: usize| MeshTriangle {
-            positions: [3 * index as u32, 3 * index as u32 + 1, 3 * index as u32 + 2],
-            normals: None,
-            uvs: None,
-            material: index.min(vertices) as u32,
-        };
-        SceneDescription {
-            camera: CameraDescription { eye: Vec3::ZERO, center: Vec3::X, up: Vec3::Z, fov: 40.0 },
-            meshes: vec![Mesh {
-                positions: self.triangles.concat(),
-                triangles: (0..self.triangles.len()).map(triangle).collect(),
-                ..Mesh::default()
-            }],
-            materials: (0..=vertices).map(|_| material()).collect(),
-            textures: Vec::new(),
-            lights: lights
-                .iter()
-                .map(|&vertices| LightDescription::Triangle { vertices, radiance: Rgb::WHITE })
-                .collect(),
-            defaults: Defaults::default(),
+        let mut scene = scenes::empty();
+        let corners: Vec<_> =
+            self.triangles.iter().map(|triangle| triangle.map(|corner| corner.as_dvec3())).collect();
+        let (of_vertices, black) = corners.split_at(vertices);
+        for triangle in of_vertices {
+            scenes::add(&mut scene, &[*triangle], scenes::grey(0.0, 0.0));
         }
+        scenes::add(&mut scene, black, scenes::grey(0.0, 0.0));
+        scene.lights = lights
+            .iter()
+            .map(|&vertices| LightDescription::Triangle { vertices, radiance: Rgb::WHITE })
+            .collect();
+        scene
     }
 }
 

@@ -7,7 +7,9 @@ use arty::integrator::Settings;
 use arty::sampler::Sampler;
 use host::protocol::{ProbeJob, ProbedPath, ScriptedScene};
 
-use super::{Asked, Finding, Found};
+use verdict::check::{Deviation, NumericalCause, Place, StabilityFinding};
+
+use super::{Asked, Found};
 use crate::checks::mis_weights::{Configuration, Plan, draw, mean_and_error};
 use harness::host_process::HostProcess;
 
@@ -36,8 +38,8 @@ struct Pair {
 
 enum Outcome {
     Right,
-    /// In the light sample or in the BSDF sample: the radiance of the path.
-    NoRadiance(&'static str, f32),
+    /// True in the light sample, false in the BSDF sample: the radiance of the path.
+    NoRadiance(bool, f32),
     /// The sum of the weights.
     Sum(f64),
     /// Light where there should be none: the infinite density's reciprocal is 0.
@@ -64,10 +66,7 @@ pub(super) fn find(asked: &Asked<'_>, process: &mut HostProcess) -> Found {
                 seed: asked.seed,
                 stratified: false,
             };
-            let paths = match process.probe(&job)? {
-                Ok(paths) => paths,
-                Err(fault) => return Ok(Err(fault)),
-            };
+            let paths = process.probe(&job)??;
             pairs.push(Pair { light, bsdf, outcome: judge(&configuration, light, bsdf, &paths) });
         }
     }
@@ -77,7 +76,7 @@ pub(super) fn find(asked: &Asked<'_>, process: &mut HostProcess) -> Found {
         inside(pair.light) && inside(pair.bsdf)
     });
     let findings = [(judged, true), (beyond, false)];
-    Ok(Ok((findings.iter().flat_map(|(pairs, judged)| describe(pairs, *judged)).collect(), paths)))
+    Ok((findings.iter().flat_map(|(pairs, is_graded)| describe(pairs, *is_graded)).collect(), paths))
 }
 
 /// Both scenes of the configuration with other densities per solid angle.
@@ -114,9 +113,9 @@ fn within_f32(density: f64) -> f64 {
 }
 
 fn judge(configuration: &Configuration, light: f64, bsdf: f64, paths: &[Vec<ProbedPath>]) -> Outcome {
-    let [sampled, hit] = paths else { return Outcome::NoRadiance("an answer", f32::NAN) };
+    let [sampled, hit] = paths else { return Outcome::NoRadiance(true, f32::NAN) };
     // What has the density 0 is never drawn, so that nobody has to divide by it.
-    let drawn = [("the light sample", sampled, light), ("the BSDF sample", hit, bsdf)];
+    let drawn = [(true, sampled, light), (false, hit, bsdf)];
     for (way, paths, _) in drawn.into_iter().filter(|(.., density)| *density > 0.0) {
         let bad =
             paths.iter().flat_map(|path| path.radiance).find(|value| !(value.is_finite() && *value >= 0.0));
@@ -140,70 +139,56 @@ fn judge(configuration: &Configuration, light: f64, bsdf: f64, paths: &[Vec<Prob
     if (sum - 1.0).abs() <= TOLERATED + noise { Outcome::Right } else { Outcome::Sum(sum) }
 }
 
-/// How all findings of this part begin.
-pub(super) const BEGINNING: &str = "with densities per solid angle";
-
 /// One finding for all pairs that fail alike: the first of them, and how many there are.
-fn describe(pairs: &[Pair], judged: bool) -> Vec<Finding> {
-    let mut findings = Vec::new();
-    let mut add = |wrong: &dyn Fn(&Outcome) -> bool, words: &dyn Fn(&Pair) -> String| {
-        let all: Vec<&Pair> = pairs.iter().filter(|pair| wrong(&pair.outcome)).collect();
-        let Some(first) = all.first() else { return };
-        let count = all.len();
-        let bad = all.iter().filter(|pair| matches!(pair.outcome, Outcome::NoRadiance(..))).count() as u64;
-        findings.push(Finding {
-            text: format!(
-                "{BEGINNING} of {:.0e} (light) and {:.0e} (BSDF): {} ({count} of {} pairs of densities)",
-                first.light,
-                first.bsdf,
-                words(first),
-                pairs.len()
-            ),
-            judged,
-            anomalies: [bad, 0],
-        });
+fn describe(pairs: &[Pair], is_graded: bool) -> Vec<StabilityFinding> {
+    let of = |fails: fn(&Outcome) -> bool| {
+        let all: Vec<&Pair> = pairs.iter().filter(|pair| fails(&pair.outcome)).collect();
+        let first = *all.first()?;
+        let pairs = [all.len() as u32, pairs.len() as u32];
+        let (deviation, likely_cause) = match first.outcome {
+            Outcome::NoRadiance(of_light_sample, value) => {
+                (Deviation::NoRadiance { of_light_sample, value: value.into(), pairs }, cause(first))
+            }
+            Outcome::Sum(sum) => (Deviation::WeightSum { sum: sum.into(), pairs }, cause_of_sum(first, sum)),
+            Outcome::Right | Outcome::Bright => {
+                (Deviation::InfiniteDensityContributes { pairs }, NumericalCause::InfinityOverInfinity)
+            }
+        };
+        let place = Place::Densities { light: first.light.into(), bsdf: first.bsdf.into() };
+        Some(StabilityFinding { place, deviation, likely_cause, is_graded, first: None, replay: None })
     };
-    add(&|outcome| matches!(outcome, Outcome::NoRadiance(..)), &|pair| {
-        let Outcome::NoRadiance(way, value) = pair.outcome else { return String::new() };
-        format!("{way} gives {value}; likely cause: {}", cause(pair))
-    });
-    add(&|outcome| matches!(outcome, Outcome::Sum(_)), &|pair| {
-        let Outcome::Sum(sum) = pair.outcome else { return String::new() };
-        format!("the two weights sum to {sum:.4} instead of 1; likely cause: {}", cause_of_sum(pair, sum))
-    });
-    add(&|outcome| matches!(outcome, Outcome::Bright), &|_| {
-        "a sample of infinite density brings light, though 1/∞ is 0; likely cause: ∞/∞ turned into 1"
-            .to_owned()
-    });
-    findings
+    let kinds: [fn(&Outcome) -> bool; 3] = [
+        |outcome| matches!(outcome, Outcome::NoRadiance(..)),
+        |outcome| matches!(outcome, Outcome::Sum(_)),
+        |outcome| matches!(outcome, Outcome::Bright),
+    ];
+    kinds.into_iter().filter_map(of).collect()
 }
 
 /// What makes NaN or infinity of such operands.
-fn cause(pair: &Pair) -> &'static str {
-    let Pair { light, bsdf, .. } = *pair;
-    let (least, greatest) = (light.min(bsdf), light.max(bsdf));
-    if greatest == 0.0 {
-        "0/0, as in p / (p + q) with both 0"
-    } else if greatest.is_infinite() {
-        "∞/∞, as in p / (p + q) with p infinite"
-    } else if least == 0.0 {
-        "0/0 or 1/0, from a density of 0 of the other technique"
-    } else if greatest > 1e19 {
-        "∞/∞ after the square or the sum of densities has overflowed"
-    } else if least < 1e-19 {
-        "0/0 after the square of densities has underflowed"
+fn cause(pair: &Pair) -> NumericalCause {
+    let (min, max) = (pair.light.min(pair.bsdf), pair.light.max(pair.bsdf));
+    if max == 0.0 {
+        NumericalCause::BothDensitiesZero
+    } else if max.is_infinite() {
+        NumericalCause::InfiniteDensity
+    } else if min == 0.0 {
+        NumericalCause::OtherDensityZero
+    } else if max > 1e19 {
+        NumericalCause::DensityOverflow
+    } else if min < 1e-19 {
+        NumericalCause::DensityUnderflow
     } else {
-        "a quotient or product of densities that over- or underflows"
+        NumericalCause::DensityRange
     }
 }
 
-fn cause_of_sum(pair: &Pair, sum: f64) -> &'static str {
-    let Pair { light, bsdf, .. } = *pair;
+fn cause_of_sum(pair: &Pair, sum: f64) -> NumericalCause {
     if sum > 1.5 {
-        "an infinite square or sum of densities is patched to a weight of 1 on both sides"
-    } else if light.max(bsdf) > 1e19 || light.min(bsdf) < 1e-19 {
-        "the square of a density over- or underflows, and NaN is hidden as 0"
+        NumericalCause::OverflowPatchedToOne
+    } else if pair.light.max(pair.bsdf) > 1e19 || pair.light.min(pair.bsdf) < 1e-19 {
+        NumericalCause::DensityNanHidden
     } else {
-        "densities are limited to a fixed range, or weighed differently in the two ways"
+        NumericalCause::ClampedDensities
     }
 }

@@ -6,14 +6,15 @@
 
 use arty::sampler::batch_seed;
 use glam::DVec3;
-use host::protocol::{AnomalousSample, RenderJob, Rendered, Switches};
+use harness::host_process::HostProcess;
+use host::protocol::{AnomalousSample, RenderJob, Rendered};
+use verdict::check::{Deviation, NumericalCause, Place, StabilityFinding};
+use verdict::replay::ReplayTarget;
 
-use super::{Asked, Finding, Found};
-use crate::extreme::build::{changed, room};
+use super::{Asked, Found, cause_of};
+use crate::checks::JobError;
 use crate::extreme::measure::mean_and_error;
-use crate::replay::Place;
-use harness::host_process::{Fault, HostProcess};
-use verdict::error::Result;
+use crate::scenes::{changed, room};
 
 /// Width and height of the picture.
 const SIZE: [u32; 2] = [16, 16];
@@ -35,53 +36,36 @@ const NOISE: f64 = 8.0;
 const LAWS: [(i32, i32); 10] =
     [(-10, 0), (10, 0), (0, -10), (0, 10), (-20, 0), (20, 0), (-40, 0), (0, -80), (0, 60), (0, 90)];
 
-/// Powers of two up to this on either side are in the range that is judged.
-const JUDGED: i32 = 10;
+/// Powers of two up to this on either side are in the range that is graded.
+const GRADED: i32 = 10;
 
 pub(super) fn find(asked: &Asked<'_>, process: &mut HostProcess) -> Found {
-    let base = match render(asked, process, (0, 0))? {
-        Ok(base) => base,
-        Err(fault) => return Ok(Err(fault)),
-    };
+    let base = render(asked, process, (0, 0))?;
     let mut paths = base.batches.len() as u64 * u64::from(SIZE[0] * SIZE[1]);
-    let mut findings: Vec<Finding> = anomalies(asked, &base, (0, 0)).into_iter().collect();
+    let mut findings: Vec<StabilityFinding> = anomalies(asked, &base, (0, 0)).into_iter().collect();
     for law in LAWS {
         let (_, brighter) = law;
-        let seen = match render(asked, process, law)? {
-            Ok(seen) => seen,
-            Err(fault) => return Ok(Err(fault)),
-        };
+        let seen = render(asked, process, law)?;
         paths += seen.batches.len() as u64 * u64::from(SIZE[0] * SIZE[1]);
-        // Where samples are no radiance, their mean is wrong for that reason.
+        // Where samples are not radiance, their mean is wrong for that reason.
         let found = anomalies(asked, &seen, law).or_else(|| {
             worst_region(&base, &seen, f64::from(brighter).exp2())
                 .map(|difference| describe(asked, &base, &seen, law, difference))
         });
         findings.extend(found);
     }
-    Ok(Ok((findings, paths)))
+    Ok((findings, paths))
 }
 
 fn render(
     asked: &Asked<'_>,
     process: &mut HostProcess,
     (larger, brighter): (i32, i32),
-) -> Result<std::result::Result<Rendered, Fault>> {
+) -> Result<Rendered, JobError> {
     let scene = changed(&room(), f64::from(larger).exp2(), DVec3::ZERO, (brighter as f32).exp2());
-    let scene = match process.load(&scene)? {
-        Ok(scene) => scene,
-        Err(fault) => return Ok(Err(fault)),
-    };
-    process.render(&RenderJob {
-        scene,
-        settings: asked.settings,
-        width: SIZE[0],
-        height: SIZE[1],
-        seeds: (0..BATCHES).map(|batch| batch_seed(asked.seed, batch)).collect(),
-        first_sample: 0,
-        samples: 1,
-        switches: Switches::default(),
-    })
+    let scene = process.load(&scene)??;
+    let seeds = (0..BATCHES).map(|batch| batch_seed(asked.seed, batch)).collect();
+    Ok(process.render(&RenderJob::new(scene, asked.settings, SIZE, seeds, 1))??)
 }
 
 /// A region with the relative difference of its mean.
@@ -119,32 +103,18 @@ fn worst_region(base: &Rendered, seen: &Rendered, factor: f64) -> Option<Differe
         .or_else(|| tiles.filter_map(compare).max_by(|a, b| a.relative.abs().total_cmp(&b.relative.abs())))
 }
 
-/// Samples that are no radiance.
-fn anomalies(asked: &Asked<'_>, seen: &Rendered, law: (i32, i32)) -> Option<Finding> {
+/// Samples that are not radiance.
+fn anomalies(asked: &Asked<'_>, seen: &Rendered, law: (i32, i32)) -> Option<StabilityFinding> {
     let first = seen.first_anomalies.first()?;
     let value =
         first.value.into_iter().find(|value| !(value.is_finite() && *value >= 0.0)).unwrap_or(f32::NAN);
-    let cause = if value.is_nan() {
-        "0/0, ∞/∞ or the root or arc cosine of what is out of its range"
-    } else if value.is_infinite() {
-        "a division by 0, or a product or sum that is beyond 3.4e38"
-    } else {
-        "a cosine whose sign was not looked at"
-    };
-    let (non_finite, negative) = (seen.non_finite, seen.negative);
-    Some(Finding {
-        text: format!(
-            "{}: {non_finite} samples are NaN or infinite and {negative} negative; the first: pixel ({}, {}), sample {}, \
-             value {:?}; likely cause: {cause}; {}",
-            name(law),
-            first.x,
-            first.y,
-            first.sample,
-            first.value,
-            again(asked, law, first)
-        ),
-        judged: is_judged(law),
-        anomalies: [non_finite, negative],
+    Some(StabilityFinding {
+        place: place(law),
+        deviation: Deviation::Anomalies { non_finite: seen.non_finite, negative: seen.negative },
+        likely_cause: cause_of(value),
+        is_graded: is_graded(law),
+        first: Some(asked.anomaly(first, replay(asked, law))),
+        replay: None,
     })
 }
 
@@ -154,7 +124,7 @@ fn describe(
     seen: &Rendered,
     law: (i32, i32),
     difference: Difference,
-) -> Finding {
+) -> StabilityFinding {
     let factor = f64::from(law.1).exp2();
     let pairs = base.batches.iter().zip(&seen.batches).zip(0..).flat_map(|((base, seen), batch)| {
         base.iter()
@@ -173,54 +143,46 @@ fn describe(
         sample: 0,
         value: [found as f32; 3],
     };
-    let place = match difference.tile {
-        None => "the whole picture".to_owned(),
-        Some([x, y]) => format!(
-            "pixels {}–{} × {}–{}",
-            x * SIZE[0] / TILES,
-            (x + 1) * SIZE[0] / TILES - 1,
-            y * SIZE[1] / TILES,
-            (y + 1) * SIZE[1] / TILES - 1
-        ),
-    };
-    let text = format!(
-        "{}: {place} is {:.1} % too {} compared with the scene as it is; the first: pixel ({}, {}), sample 0, {found:.4e} \
-         instead of {:.4e}; likely cause: {}; {}",
-        name(law),
-        100.0 * difference.relative.abs(),
-        if difference.relative < 0.0 { "dark" } else { "bright" },
-        sample.x,
-        sample.y,
-        expected * factor,
-        cause(seen, law, difference),
-        again(asked, law, &sample)
-    );
-    Finding { text, judged: is_judged(law), anomalies: [0; 2] }
+    let pixels = difference.tile.map(|[x, y]| {
+        let range = |tile: u32, size: u32| [tile * size / TILES, (tile + 1) * size / TILES - 1];
+        [range(x, SIZE[0]), range(y, SIZE[1])]
+    });
+    StabilityFinding {
+        place: place(law),
+        deviation: Deviation::Region {
+            pixels,
+            relative: difference.relative.into(),
+            expected: (expected * factor).into(),
+        },
+        likely_cause: cause(seen, law, difference),
+        is_graded: is_graded(law),
+        first: Some(asked.anomaly(&sample, replay(asked, law))),
+        replay: None,
+    }
 }
 
 /// What most often does such a thing.
-fn cause(seen: &Rendered, (larger, brighter): (i32, i32), difference: Difference) -> String {
+fn cause(seen: &Rendered, (larger, brighter): (i32, i32), difference: Difference) -> NumericalCause {
     if larger != 0 {
         let size = f64::from(larger).exp2() * room_size();
         return if larger.abs() > 20 {
-            format!("a square or cube of lengths over- or underflows in a scene {size:.0e} units large")
+            NumericalCause::PowerOfLength { size }
         } else {
-            let fate = if larger < 0 { "large" } else { "small" };
-            format!("a fixed epsilon or distance, which is {fate} in a scene {size:.0e} units large")
+            NumericalCause::FixedEpsilon { size, is_large: larger < 0 }
         };
     }
-    let greatest = seen.batches.iter().flatten().map(|value| value[1]).fold(0.0, f32::max);
-    let capped = seen.batches.iter().flatten().filter(|value| value[1] == greatest).count();
+    let max = seen.batches.iter().flatten().map(|value| value[1]).fold(0.0, f32::max);
+    let clamped = seen.batches.iter().flatten().filter(|value| value[1] == max).count();
     if brighter > 0 && difference.relative < 0.0 {
-        if capped > 2 {
-            format!("radiance is limited to {greatest}, which {capped} samples have to the last bit")
+        if clamped > 2 {
+            NumericalCause::ClampedRadiance { limit: max.into(), samples: clamped as u64 }
         } else {
-            "radiance is limited or compressed, or what overflows is turned into 0".to_owned()
+            NumericalCause::LimitedRadiance
         }
     } else if brighter < 0 && difference.relative < 0.0 {
-        "small contributions are dropped below a fixed limit, or underflow".to_owned()
+        NumericalCause::DroppedContributions
     } else {
-        "a constant is added to or compared with radiance".to_owned()
+        NumericalCause::ConstantInRadiance
     }
 }
 
@@ -231,34 +193,24 @@ fn room_size() -> f64 {
     vertices(&room()).iter().fold(0.0, |most: f64, position| most.max(2.0 * f64::from(position.length())))
 }
 
-fn is_judged((larger, brighter): (i32, i32)) -> bool {
-    larger.abs().max(brighter.abs()) <= JUDGED
+fn is_graded((larger, brighter): (i32, i32)) -> bool {
+    larger.abs().max(brighter.abs()) <= GRADED
 }
 
-/// "2^-10 times as large".
-fn name(law: (i32, i32)) -> String {
+fn place(law: (i32, i32)) -> Place {
     match law {
-        (0, 0) => "in the scene as it is".to_owned(),
-        (larger, 0) => format!("in a scene 2^{larger} times as large"),
-        (_, brighter) => format!("with lights 2^{brighter} times as bright"),
+        (0, 0) => Place::Unchanged,
+        (larger, 0) => Place::Scaled(larger),
+        (_, brighter) => Place::Brightened(brighter),
     }
 }
 
-fn again(asked: &Asked<'_>, (larger, brighter): (i32, i32), sample: &AnomalousSample) -> String {
-    let place = Place {
-        scene: Place::ROOM.to_owned(),
-        description: room(),
+fn replay(asked: &Asked<'_>, (larger, brighter): (i32, i32)) -> ReplayTarget {
+    ReplayTarget {
         scale: f64::from(larger).exp2(),
         emission: (brighter as f32).exp2(),
-        technique: asked.settings.technique,
-        max_bounces: asked.settings.max_bounces,
-        size: SIZE,
-        seed: asked.seed,
-        pixel: [0, 0],
-        sample: 0,
-        switches: Switches::default(),
-    };
-    format!("see it again with `{}`", place.of(sample).command(&asked.bench.path))
+        ..asked.replay(ReplayTarget::ROOM, asked.settings, SIZE)
+    }
 }
 
 #[cfg(test)]

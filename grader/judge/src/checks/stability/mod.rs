@@ -1,11 +1,11 @@
-//! **stability**: does the hand-in hold where numbers are small, large, or at an end?
+//! **stability**: does the submission hold where numbers are small, large, or at an end?
 //!
 //! Three things are looked at. [`laws`]: a scene that is made larger or brighter must give the same picture, or the same
 //! picture times a factor; with the same random numbers, and factors that are powers of two, a correct path tracer gives
 //! it to the last bit, so that little noise is in the way. [`pictures`]: scenes with a known answer that are awkward for
 //! floating-point numbers. [`densities`]: weights for densities at the ends of what single precision holds.
 //!
-//! Points depend on what lies in a generous range, scales and brightnesses of a thousandth to a thousand and densities of
+//! Points depend on what lies in a wide range, scales and brightnesses of a thousandth to a thousand and densities of
 //! 1e-12 to 1e12; what lies beyond is remarked on.
 
 mod densities;
@@ -13,112 +13,126 @@ mod laws;
 mod pictures;
 
 use arty::integrator::{Settings, Technique};
-
-use super::{Bench, Stop};
-use harness::host_process::{Fault, HostProcess};
-use verdict::error;
-use verdict::report::{CheckResult, Reason, Verdict};
+use harness::host_process::HostProcess;
+use host::protocol::AnomalousSample;
+use verdict::check::{
+    Anomaly, CheckKind, Evidence, NumericalCause, Numerics, Reason, StabilityFinding, StabilityTest,
+};
+use verdict::replay::ReplayTarget;
 use verdict::rubric::CheckSpec;
 
-/// Something that a part of the check has found.
-struct Finding {
-    /// What is wrong, where, why probably, and how to see it again.
-    text: String,
-    /// True if points depend on it.
-    judged: bool,
-    /// Samples that were NaN or infinite, and negative.
-    anomalies: [u64; 2],
-}
-
-impl Finding {
-    /// Where it was found, the same for all hand-ins.
-    fn key(&self) -> String {
-        match self.text.split_once(": ") {
-            Some((place, _)) if !place.starts_with(densities::BEGINNING) => place.to_owned(),
-            _ => densities::BEGINNING.to_owned(),
-        }
-    }
-}
-
-/// What a part has found, and how many paths that took; or what the hand-in did instead of answering.
-type Found = error::Result<Result<(Vec<Finding>, u64), Fault>>;
+use super::context::{anomaly, replay_of, settings_of};
+use super::{Check, GradeContext, JobError, Observation, Outcome};
 
 /// What all parts need.
 struct Asked<'a> {
-    bench: &'a Bench<'a>,
+    context: &'a GradeContext<'a>,
+    spec: &'a CheckSpec,
     settings: Settings,
     seed: u64,
 }
 
-pub(super) fn run(bench: &Bench<'_>, spec: &CheckSpec, result: &mut CheckResult) -> Result<(), Stop> {
-    let settings = Settings { technique: spec.technique, max_bounces: spec.max_bounces };
-    let asked = Asked { bench, settings, seed: bench.seed_of(spec) };
-    let mut process = bench.start()?;
-    type Part = fn(&Asked<'_>, &mut HostProcess) -> Found;
-    let mut parts: Vec<Part> = vec![laws::find, pictures::find];
-    if spec.technique == Technique::Mis {
-        parts.push(densities::find);
+/// Findings, and how many paths they took.
+type Found = Result<(Vec<StabilityFinding>, u64), JobError>;
+
+pub(super) struct Stability;
+
+impl Check for Stability {
+    fn kind(&self) -> CheckKind {
+        CheckKind::Stability
     }
-    let mut findings = Vec::new();
-    for part in parts {
-        let (found, paths) = part(&asked, &mut process)??;
-        findings.extend(found);
-        result.samples += paths;
+
+    fn techniques(&self) -> &'static [Technique] {
+        &[Technique::Nee, Technique::Mis]
     }
-    conclude(result, findings);
-    Ok(())
+
+    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<Outcome, JobError> {
+        let asked = Asked { context, spec, settings: settings_of(spec), seed: context.seed_of(spec) };
+        let mut process = context.start()?;
+        type Part = fn(&Asked<'_>, &mut HostProcess) -> Found;
+        let mut parts: Vec<Part> = vec![laws::find, pictures::find];
+        if spec.technique == Technique::Mis {
+            parts.push(densities::find);
+        }
+        let (mut findings, mut samples) = (Vec::new(), 0);
+        for part in parts {
+            let (found, paths) = part(&asked, &mut process)?;
+            findings.extend(found);
+            samples += paths;
+        }
+        Ok(conclude(findings, samples))
+    }
+
+    fn observations(&self, evidence: &Evidence) -> Vec<Observation> {
+        let Evidence::Stability(test) = evidence else { return Vec::new() };
+        let graded = test.findings.iter().filter(|finding| finding.is_graded);
+        let mut all: Vec<Observation> = Vec::new();
+        for observation in graded.map(|finding| Observation::wrong_at((&finding.place).into())) {
+            if !all.contains(&observation) {
+                all.push(observation);
+            }
+        }
+        all
+    }
 }
 
-fn conclude(result: &mut CheckResult, findings: Vec<Finding>) {
-    let (judged, remarks): (Vec<Finding>, Vec<Finding>) =
-        findings.into_iter().partition(|finding| finding.judged);
-    for finding in &judged {
-        result.non_finite += finding.anomalies[0];
-        result.negative += finding.anomalies[1];
+fn conclude(findings: Vec<StabilityFinding>, samples: u64) -> Outcome {
+    let (graded, remarks): (Vec<StabilityFinding>, Vec<StabilityFinding>) =
+        findings.into_iter().partition(|finding| finding.is_graded);
+    let sum = |which: usize| graded.iter().map(|finding| finding.deviation.anomalies()[which]).sum();
+    let numerics = Numerics { non_finite: sum(0), negative: sum(1), first: None };
+    let reason = if graded.is_empty() { Reason::None } else { Reason::Bias };
+    let findings = graded.into_iter().chain(remarks).collect();
+    Outcome::new(reason, Evidence::Stability(StabilityTest { findings }), samples).with(numerics)
+}
+
+/// What most often returns a value that is not radiance.
+fn cause_of(value: f32) -> NumericalCause {
+    if value.is_nan() {
+        NumericalCause::InvalidOperation
+    } else if value.is_infinite() {
+        NumericalCause::DivisionByZeroOrOverflow
+    } else {
+        NumericalCause::SignOfCosine
     }
-    result.details = judged.iter().map(|finding| (finding.key(), 1.0)).collect();
-    (result.verdict, result.reason, result.explanation) = match judged.first() {
-        Some(first) => {
-            let reason = if judged.iter().any(|finding| finding.anomalies != [0; 2]) {
-                Reason::Numerics
-            } else {
-                Reason::Bias
-            };
-            let more = match judged.len() {
-                1 => String::new(),
-                count => format!(" (and {} more: see the remarks)", count - 1),
-            };
-            (Verdict::Fail, reason, format!("{}{more}", first.text))
-        }
-        None => {
-            let more = match remarks.len() {
-                0 => "and so is all beyond that was looked at".to_owned(),
-                1 => "one remark on what lies beyond".to_owned(),
-                count => format!("{count} remarks on what lies beyond"),
-            };
-            let range = "scales and brightnesses from 1/1024 to 1024, densities from 1e-12 to 1e12";
-            (Verdict::Pass, Reason::None, format!("right for {range}; {more}"))
-        }
-    };
-    result.remarks = judged.into_iter().skip(1).chain(remarks).map(|finding| finding.text).collect();
+}
+
+impl Asked<'_> {
+    /// A sample of a scene, with the path that shows it.
+    fn anomaly(&self, sample: &AnomalousSample, scene: ReplayTarget) -> Anomaly {
+        anomaly(sample, Some(scene))
+    }
+
+    /// A path in a scene of this name.
+    fn replay(&self, scene: &str, settings: Settings, size: [u32; 2]) -> ReplayTarget {
+        let Settings { technique, max_bounces } = settings;
+        let scene = scene.to_owned();
+        ReplayTarget { scene, technique, max_bounces, size, seed: self.seed, ..replay_of(self.spec) }
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    use verdict::check::{Deviation, Place, Verdict};
+
     use super::*;
 
     #[test]
     fn remarks_cost_nothing_and_findings_do() {
-        let json = r#"{"id": "", "check": "stability", "scene": "", "task": "", "technique": "mis", "max_bounces": 3,
-            "evidence": false, "verdict": "error", "reason": "harness", "explanation": "", "effect": null, "interval": null,
-            "detectable": null, "samples": 0, "seconds": 0, "non_finite": 0, "negative": 0, "repeat": ""}"#;
-        let mut result: CheckResult = serde_json::from_str(json).expect("it is a result");
-        let finding = |judged, anomalies| Finding { text: "x".to_owned(), judged, anomalies };
-        conclude(&mut result, vec![finding(false, [3, 0])]);
-        assert_eq!((result.verdict, result.non_finite, result.remarks.len()), (Verdict::Pass, 0, 1));
-        conclude(&mut result, vec![finding(false, [0, 0]), finding(true, [0, 0])]);
-        assert_eq!((result.verdict, result.reason), (Verdict::Fail, Reason::Bias));
-        conclude(&mut result, vec![finding(true, [1, 2])]);
-        assert_eq!((result.reason, result.non_finite, result.negative), (Reason::Numerics, 1, 2));
+        let finding = |is_graded, [non_finite, negative]: [u64; 2]| StabilityFinding {
+            place: Place::Unchanged,
+            deviation: Deviation::Anomalies { non_finite, negative },
+            likely_cause: NumericalCause::InvalidOperation,
+            is_graded,
+            first: None,
+            replay: None,
+        };
+        let outcome = conclude(vec![finding(false, [3, 0])], 1);
+        assert_eq!((outcome.verdict, outcome.numerics.non_finite), (Verdict::Pass, 0));
+        let outcome = conclude(vec![finding(false, [0, 0]), finding(true, [0, 0])], 1);
+        assert_eq!((outcome.verdict, outcome.reason), (Verdict::Fail, Reason::Bias));
+        let outcome = conclude(vec![finding(true, [1, 2])], 1);
+        let numerics = &outcome.numerics;
+        assert_eq!((outcome.reason, numerics.non_finite, numerics.negative), (Reason::Numerics, 1, 2));
     }
 }

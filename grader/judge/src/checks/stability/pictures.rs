@@ -1,14 +1,14 @@
 //! Extreme scenes with known answers, through the hand-in's code.
 
-use arty::integrator::Settings;
-use host::protocol::{AnomalousSample, RenderJob, Switches};
+use arty::sampler::batch_seed;
+use harness::host_process::HostProcess;
+use host::protocol::{AnomalousSample, RenderJob};
+use verdict::check::{Deviation, NumericalCause, Place, StabilityFinding};
 
-use super::{Asked, Finding, Found};
+use super::{Asked, Found, cause_of};
+use crate::checks::JobError;
 use crate::extreme::answers;
 use crate::extreme::measure::{self, Effort, findings};
-use crate::replay::Place;
-use harness::host_process::{Fault, HostProcess};
-use verdict::error::Result;
 
 /// Paths for each scene.
 const EFFORT: Effort = Effort(1 << 13);
@@ -28,10 +28,7 @@ pub(super) fn find(asked: &Asked<'_>, process: &mut HostProcess) -> Found {
     let wanted = |answer: &answers::Answer| {
         answer.size[0] * answer.size[1] <= MOST_PIXELS && answer.max_bounces <= MOST_BOUNCES
     };
-    let seen = match findings(process, &extremes, technique, EFFORT, asked.seed, wanted)? {
-        Ok(seen) => seen,
-        Err(fault) => return Ok(Err(fault)),
-    };
+    let seen = findings(process, &extremes, technique, EFFORT, asked.seed, wanted)??;
     let mut found = Vec::new();
     let mut paths = 0;
     for mut picture in seen {
@@ -43,15 +40,12 @@ pub(super) fn find(asked: &Asked<'_>, process: &mut HostProcess) -> Found {
         let extreme = extremes.iter().find(|extreme| extreme.answer.scene == picture.scene);
         let Some(extreme) = extreme else { continue };
         let suspect = match &picture.measured.first {
-            Some(first) => Ok(Some(first.clone())),
+            Some(first) => Some(first.clone()),
             None => first_black(asked, process, extreme, &picture)?,
         };
-        match suspect {
-            Ok(suspect) => found.push(describe(asked, extreme, &picture, suspect)),
-            Err(fault) => return Ok(Err(fault)),
-        }
+        found.push(describe(asked, extreme, &picture, suspect));
     }
-    Ok(Ok((found, paths)))
+    Ok((found, paths))
 }
 
 /// The first sample that is black, of as many as are taken one by one: what most often makes a mean too small.
@@ -60,38 +54,27 @@ fn first_black(
     process: &mut HostProcess,
     extreme: &answers::Extreme,
     picture: &measure::Finding,
-) -> Result<std::result::Result<Option<AnomalousSample>, Fault>> {
+) -> Result<Option<AnomalousSample>, JobError> {
     if picture.measured.mean >= picture.truth {
-        return Ok(Ok(None));
+        return Ok(None);
     }
-    let scene = match process.load(&extreme.description)? {
-        Ok(scene) => scene,
-        Err(fault) => return Ok(Err(fault)),
-    };
-    let [width, height] = picture.size;
-    let seeds: Vec<u64> = (0..64).map(|batch| arty::sampler::batch_seed(asked.seed, batch)).collect();
-    let job = RenderJob {
-        scene,
-        settings: picture.settings,
-        width,
-        height,
-        seeds: seeds.clone(),
-        first_sample: 0,
-        samples: 1,
-        switches: Switches::default(),
-    };
-    Ok(process.render(&job)?.map(|rendered| {
-        let all =
-            rendered.batches.iter().zip(seeds).flat_map(|(batch, seed)| {
-                batch.iter().zip(0..).map(move |(value, pixel)| (seed, pixel, *value))
-            });
-        all.into_iter().find(|(_, _, value)| value[1] == 0.0).map(|(seed, pixel, value)| AnomalousSample {
-            seed,
-            x: pixel % width,
-            y: pixel / width,
-            sample: 0,
-            value,
-        })
+    let scene = process.load(&extreme.description)??;
+    let width = picture.size[0];
+    let seeds: Vec<u64> = (0..64).map(|batch| batch_seed(asked.seed, batch)).collect();
+    let job = RenderJob::new(scene, picture.settings, picture.size, seeds.clone(), 1);
+    let rendered = process.render(&job)??;
+    let mut all = rendered
+        .batches
+        .iter()
+        .zip(seeds)
+        .flat_map(|(batch, seed)| batch.iter().zip(0..).map(move |(value, pixel)| (seed, pixel, *value)));
+    let black = all.find(|(_, _, value)| value[1] == 0.0);
+    Ok(black.map(|(seed, pixel, value)| AnomalousSample {
+        seed,
+        x: pixel % width,
+        y: pixel / width,
+        sample: 0,
+        value,
     }))
 }
 
@@ -100,57 +83,29 @@ fn describe(
     extreme: &answers::Extreme,
     picture: &measure::Finding,
     suspect: Option<AnomalousSample>,
-) -> Finding {
+) -> StabilityFinding {
     let measure::Finding { scene, truth, measured, settings, size, judged, .. } = picture;
-    let what = if measured.is_clean() {
-        format!("the mean is {:.4e} instead of {truth:.4e} ({})", measured.mean, extreme.answer.because)
+    let deviation = if measured.is_clean() {
+        let because = extreme.answer.because.clone();
+        Deviation::Mean { found: measured.mean.into(), expected: (*truth).into(), because }
     } else {
-        format!("{} samples are NaN or infinite and {} negative", measured.non_finite, measured.negative)
+        Deviation::Anomalies { non_finite: measured.non_finite, negative: measured.negative }
     };
-    let (place, cause) = match &suspect {
-        Some(sample) => {
-            let value = sample.value[1];
-            let cause = if value.is_nan() {
-                "0/0, ∞/∞ or the root or arc cosine of what is out of its range"
-            } else if value.is_infinite() {
-                "a division by 0, or an overflow"
-            } else if value < 0.0 {
-                "a cosine whose sign was not looked at"
-            } else {
-                "a value that is no number, hidden as 0, or a ray that starts or ends too near"
-            };
-            (
-                format!(
-                    "; the first: pixel ({}, {}), sample {}, value {:?}",
-                    sample.x, sample.y, sample.sample, sample.value
-                ),
-                cause,
-            )
-        }
-        None if measured.mean < *truth => (String::new(), "a limit on radiance, densities or distances"),
-        None => (String::new(), "a ray that passes what it should not, or light that counts twice"),
+    let likely_cause = match suspect.as_ref().map(|sample| sample.value[1]) {
+        Some(value) if !(value.is_finite() && value >= 0.0) => cause_of(value),
+        Some(_) => NumericalCause::HiddenNanOrOffset,
+        None if measured.mean < *truth => NumericalCause::Limit,
+        None => NumericalCause::LeakOrDoubleCount,
     };
-    let Settings { technique, max_bounces } = *settings;
-    let path = Place {
-        scene: scene.clone(),
-        description: extreme.description.clone(),
-        scale: 1.0,
-        emission: 1.0,
-        technique,
-        max_bounces,
-        size: *size,
-        seed: arty::sampler::batch_seed(asked.seed, 0),
-        pixel: [0, 0],
-        sample: 0,
-        switches: Switches::default(),
-    };
-    let path = suspect.as_ref().map_or(path.clone(), |sample| path.of(sample));
-    Finding {
-        text: format!(
-            "in {scene}: {what}{place}; likely cause: {cause}; see it again with `{}`",
-            path.command(&asked.bench.path)
-        ),
-        judged: *judged,
-        anomalies: [measured.non_finite, measured.negative],
+    let replay = asked.replay(scene, *settings, *size);
+    StabilityFinding {
+        place: Place::ExtremeScene(scene.clone()),
+        deviation,
+        likely_cause,
+        is_graded: *judged,
+        first: suspect.as_ref().map(|sample| asked.anomaly(sample, replay.clone())),
+        replay: suspect
+            .is_none()
+            .then(|| verdict::replay::ReplayTarget { seed: batch_seed(asked.seed, 0), ..replay }),
     }
 }

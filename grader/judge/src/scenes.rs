@@ -1,4 +1,4 @@
-//! Scenes made in memory, for sweeps and for the check.
+//! Scenes made in memory.
 
 use arty::math::{Rgb, Vec3};
 use arty::scene::{
@@ -116,6 +116,24 @@ pub fn changed(scene: &SceneDescription, scale: f64, offset: DVec3, emission: f3
         }
     }
     changed
+}
+
+/// A point light.
+pub fn point_light(position: Vec3, power: Rgb) -> LightDescription {
+    LightDescription::Point { position, power }
+}
+
+/// A cube of side 2 around the origin; its sides have no common front.
+pub fn cube() -> Vec<[DVec3; 3]> {
+    let corner = |index: u32| {
+        let side = |bit: u32| if index >> bit & 1 == 0 { -1.0 } else { 1.0 };
+        DVec3::new(side(0), side(1), side(2))
+    };
+    let sides = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
+    sides
+        .iter()
+        .flat_map(|&[a, b, c, d]: &[u32; 4]| [[a, b, c], [a, c, d]].map(|side| side.map(corner)))
+        .collect()
 }
 
 /// A room of about four units: diffuse and glossy surfaces, a block near a wall, something hung closely under a light,
