@@ -1,8 +1,11 @@
 //! The process that runs a hand-in, seen from the grader.
 
+mod expected;
+
 use std::borrow::Cow;
 use std::io::{BufReader, ErrorKind, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
@@ -10,14 +13,15 @@ use arty::integrator::Settings;
 use arty::scene::SceneDescription;
 use host::protocol::{
     ProbeJob, ProbedPath, RenderJob, Rendered, ReplayJob, Replayed, Request, Response, UNCONFINED,
-    read_message, write_message,
+    write_message,
 };
 use serde::{Deserialize, Serialize};
 
 use crate::build::HandInProgram;
 use crate::error::{Error, Result};
-use crate::sandbox::{self, Layers, Profile};
+use crate::sandbox::{self, Account, Layers, Profile};
 use crate::text::clean;
+use expected::Expected;
 
 /// A running hand-in.
 ///
@@ -25,6 +29,8 @@ use crate::text::clean;
 pub struct HostProcess {
     child: Child,
     requests: Sender<Vec<u8>>,
+    /// What the next answer can be: none is read before it is asked for.
+    expected: Sender<Expected>,
     responses: Receiver<std::io::Result<Option<Response>>>,
     scenes: u32,
     job_time: Duration,
@@ -35,6 +41,12 @@ pub struct HostProcess {
     layers: Layers,
     /// Whether it was ended because it took too long.
     ended: bool,
+    /// What it did instead of starting, if it did not: its answer to all jobs.
+    failed: Option<Fault>,
+    /// Processes that the machine had ended for want of memory when this one started.
+    kills: Option<u64>,
+    /// Nobody else has its user id as long as it runs.
+    _account: Arc<Account>,
 }
 
 /// A job is tried with this part of it, to see whether it will ever end …
@@ -106,15 +118,19 @@ impl HostProcess {
             .stdout(Stdio::piped())
             // What a hand-in prints is nobody's verdict.
             .stderr(Stdio::null());
-        sandbox::prepare(&mut command, Profile::Host { threads }, limits)?;
+        let account = Arc::clone(program.account());
+        let profile = Profile::Host { program: &program.executable, account: &account, threads };
+        let set = sandbox::prepare(&mut command, profile, limits)?;
+        let kills = sandbox::out_of_memory_kills();
         let mut child = spawn(&mut command).map_err(trouble)?;
+        let layers = sandbox::confirmed(&child, set);
         let requests = send(child.stdin.take().expect("stdin is piped"));
-        let responses = receive(child.stdout.take().expect("stdout is piped"), limits.answer);
+        let (expected, responses) = receive(child.stdout.take().expect("stdout is piped"));
         let job_time = limits.job_time;
-        let layers = Layers::default();
         let mut process = Self {
             child,
             requests,
+            expected,
             responses,
             scenes: 0,
             job_time,
@@ -122,15 +138,25 @@ impl HostProcess {
             tried: None,
             layers,
             ended: false,
+            failed: None,
+            kills,
+            _account: account,
         };
-        match process.answer(job_time, job_time)? {
-            Ok(Response::Started(layers)) => process.layers = layers,
-            Ok(_) => return Err(Error::Harness("the hand-in's program did not say that it is there".into())),
-            Err(fault) => {
-                return Err(Error::Harness(format!("the hand-in's program does not start: {fault}")));
-            }
-        }
+        let _ = process.expected.send(Expected::start());
+        process.failed = match process.answer(job_time, job_time)? {
+            Ok(Response::Started) => None,
+            Ok(_) => Some(Fault::Malformed("it did not say that it is there".to_owned())),
+            Err(fault) => Some(fault),
+        };
         Ok(process)
+    }
+
+    /// What the program did instead of starting, if it did not. Its jobs end with the same.
+    ///
+    /// Whether programs start at all on this machine is tried with an empty hand-in before: so this is a fault of the
+    /// hand-in.
+    pub fn fault(&self) -> Option<&Fault> {
+        self.failed.as_ref()
     }
 
     /// The same process, which may take no longer than this for all that it is asked.
@@ -140,7 +166,8 @@ impl HostProcess {
         self
     }
 
-    /// How the process is confined: what held when it was tried, before any code of the hand-in.
+    /// How the process is confined: what the grader set before the program was started, and the kernel confirmed. The
+    /// process itself has no say in it.
     pub fn layers(&self) -> Layers {
         self.layers
     }
@@ -182,7 +209,8 @@ impl HostProcess {
     }
 
     fn render_in_time(&mut self, job: &RenderJob, time: Duration) -> Answer<Rendered> {
-        let (pixels, batches) = ((job.width * job.height) as usize, job.seeds.len());
+        self.require_scene(job.scene)?;
+        let (pixels, batches) = (job.width as usize * job.height as usize, job.seeds.len());
         match self.ask(&Request::Render(Cow::Borrowed(job)), time)? {
             Ok(Response::Rendered(rendered)) => Ok(check_shape(rendered, batches, pixels)),
             Ok(other) => unexpected(other),
@@ -205,6 +233,9 @@ impl HostProcess {
     }
 
     fn probe_in_time(&mut self, job: &ProbeJob, time: Duration) -> Answer<Vec<Vec<ProbedPath>>> {
+        if job.stratified && !(job.samples.is_power_of_two() && job.samples <= 1 << 20) {
+            return Err(Error::Harness(format!("{} paths cannot be stratified", job.samples)));
+        }
         match self.ask(&Request::Probe(Cow::Borrowed(job)), time)? {
             Ok(Response::Probed(paths)) => {
                 let whole = paths.len() == job.scenes.len()
@@ -220,20 +251,33 @@ impl HostProcess {
         }
     }
 
-    /// Follows one path again, with every call written down. Its numbers may be anything.
+    /// Follows one path again, with every call written down. Its numbers may be anything; its words are cleaned.
     pub fn replay(&mut self, job: ReplayJob) -> Answer<Replayed> {
+        self.require_scene(job.scene)?;
         match self.ask(&Request::Replay(job), self.job_time)? {
-            Ok(Response::Replayed(path)) => Ok(Ok(path)),
+            Ok(Response::Replayed(path)) => Ok(Ok(clean_words(path))),
             Ok(other) => unexpected(other),
             Err(fault) => Ok(Err(fault)),
         }
     }
 
+    /// The grader's own mistakes are found here: what the process says of a job is a matter of the hand-in.
+    fn require_scene(&self, scene: u32) -> Result<()> {
+        if scene < self.scenes {
+            return Ok(());
+        }
+        Err(Error::Harness(format!("there is no scene {scene}: {} were sent", self.scenes)))
+    }
+
     fn ask(&mut self, request: &Request<'_>, time: Duration) -> Answer<Response> {
+        if let Some(fault) = &self.failed {
+            return Ok(Err(fault.clone()));
+        }
         let mut bytes = Vec::new();
         write_message(&mut bytes, request)
             .map_err(|error| Error::Harness(format!("a job cannot be sent: {error}")))?;
         // If nobody takes it any more, there will be no answer either.
+        let _ = self.expected.send(Expected::answer_to(request));
         let _ = self.requests.send(bytes);
         let Some([all, left]) = self.all_jobs else { return self.answer(time, self.job_time) };
         let start = Instant::now();
@@ -277,7 +321,7 @@ impl HostProcess {
         if let Ok(Some(status)) = self.child.try_wait()
             && !self.ended
         {
-            sandbox::blame_machine(status, "the hand-in's program")?;
+            sandbox::blame_machine(status, self.kills, "the hand-in's program")?;
         }
         sandbox::end(&mut self.child);
         Ok(Fault::Crash(self.child.wait().map_or_else(|error| error.to_string(), describe)))
@@ -304,8 +348,15 @@ fn spawn(command: &mut Command) -> std::io::Result<Child> {
 fn describe(status: ExitStatus) -> String {
     #[cfg(unix)]
     if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
-        let abort = rustix::process::Signal::ABORT.as_raw();
-        let why = if signal == abort { ": out of memory, stack overflow, or it aborted itself" } else { "" };
+        use rustix::process::Signal;
+        let is = |other: Signal| signal == other.as_raw();
+        let why = if is(Signal::ABORT) {
+            ": out of memory, stack overflow, or it aborted itself"
+        } else if is(Signal::SEGV) {
+            ": stack overflow, or memory that is not its own"
+        } else {
+            ""
+        };
         return format!("{status}{why}");
     }
     status.to_string()
@@ -324,20 +375,21 @@ fn send(mut pipe: ChildStdin) -> Sender<Vec<u8>> {
     sender
 }
 
-/// Has a thread read messages of at most `limit` bytes.
-fn receive(pipe: ChildStdout, limit: u32) -> Receiver<std::io::Result<Option<Response>>> {
+/// Has a thread read answers, each when it is expected and no earlier: what nobody asked for stays in the pipe.
+fn receive(pipe: ChildStdout) -> (Sender<Expected>, Receiver<std::io::Result<Option<Response>>>) {
     let (sender, responses) = channel();
+    let (expected, queue) = channel::<Expected>();
     std::thread::spawn(move || {
         let mut answers = BufReader::new(pipe);
-        loop {
-            let message = read_message(&mut answers, limit);
+        for expected in queue {
+            let message = expected.read(&mut answers);
             let last = !matches!(message, Ok(Some(_)));
             if sender.send(message).is_err() || last {
                 break;
             }
         }
     });
-    responses
+    (expected, responses)
 }
 
 impl Drop for HostProcess {
@@ -350,13 +402,38 @@ impl Drop for HostProcess {
 fn unexpected<T>(response: Response) -> Answer<T> {
     match response {
         Response::Panicked { message } => Ok(Err(Fault::Panic(clean(&message)))),
-        Response::Rejected { message } => Err(Error::Harness(format!("the host rejected a job: {message}"))),
-        Response::Started(_) => Ok(Err(Fault::Malformed("it started anew".to_owned()))),
+        // The host rejects only what the grader has made sure that it does not send.
+        Response::Rejected { message } => {
+            Ok(Err(Fault::Malformed(format!("it rejected a job: {}", short(&message)))))
+        }
+        Response::Started => Ok(Err(Fault::Malformed("it started anew".to_owned()))),
         Response::SceneReady => Ok(Err(Fault::Malformed("it only said that a scene is ready".to_owned()))),
         Response::Replayed(_) => Ok(Err(Fault::Malformed("a path that nobody asked for".to_owned()))),
         Response::Probed(_) => Ok(Err(Fault::Malformed("paths that nobody asked for".to_owned()))),
         Response::Rendered(_) => Ok(Err(Fault::Malformed("a rendering that nobody asked for".to_owned()))),
     }
+}
+
+/// Words of a process that a person will see: clean, and no more than anyone will read.
+fn short(words: &str) -> String {
+    let words = clean(words);
+    match words.char_indices().nth(LONGEST_WORDS) {
+        Some((end, _)) => format!("{} …", &words[..end]),
+        None => words,
+    }
+}
+
+/// Characters of a text that should not be there at all.
+const LONGEST_WORDS: usize = 200;
+
+fn clean_words(mut path: Replayed) -> Replayed {
+    for call in &mut path.calls {
+        let names = call.given.iter_mut().chain(&mut call.got).map(|(name, _)| name);
+        for word in names.chain([&mut call.function]) {
+            *word = short(word);
+        }
+    }
+    path
 }
 
 fn check_shape(rendered: Rendered, batches: usize, pixels: usize) -> std::result::Result<Rendered, Fault> {

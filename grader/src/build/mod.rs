@@ -5,8 +5,14 @@ mod compile;
 mod compiler;
 mod framework;
 mod kept;
+mod refuse;
 mod scratch;
+#[cfg(target_os = "linux")]
+mod shape;
+#[cfg(not(target_os = "linux"))]
+#[path = "shape_elsewhere.rs"]
+mod shape;
 
 pub use compile::{BuildFailure, HandInProgram, compile};
-pub(crate) use compile::{EMPTY_HAND_IN, recipe};
+pub(crate) use compile::{compile_empty, recipe};
 pub use framework::Framework;
