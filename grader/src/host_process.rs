@@ -416,7 +416,7 @@ fn unexpected<T>(response: Response) -> Answer<T> {
 
 /// Words of a process that a person will see: clean, and no more than anyone will read.
 fn short(words: &str) -> String {
-    let words = clean(words);
+    let words = clean(words).replace('\n', " ");
     match words.char_indices().nth(LONGEST_WORDS) {
         Some((end, _)) => format!("{} …", &words[..end]),
         None => words,

@@ -108,8 +108,19 @@ pub fn compile(
         let why = "this cannot be read, though rustc can: write it in another way";
         return Ok(Err(not_run(Some(line), &[why.to_owned()])));
     }
-    let differences = Shape::of(&program.executable)?.differences(usual?);
+    usual?;
+    let differences = differences(framework, &program)?;
     Ok(if differences.is_empty() { Ok(program) } else { Err(not_run(None, &differences)) })
+}
+
+/// In what a program differs from that of an empty hand-in, of all that decides what runs before `main`: in words, and in
+/// nothing unless something is wrong.
+///
+/// # Errors
+/// If one of them cannot be read.
+pub fn differences(framework: &Framework, program: &HandInProgram) -> Result<Vec<String>> {
+    let usual = usual_shape(framework, &program.limits)?;
+    Ok(Shape::of(&program.executable)?.differences(usual))
 }
 
 /// Compiles a hand-in that must compile wherever anything does. What is linked of others is held against it.

@@ -13,6 +13,6 @@ mod shape;
 #[path = "shape_elsewhere.rs"]
 mod shape;
 
-pub use compile::{BuildFailure, HandInProgram, compile};
+pub use compile::{BuildFailure, HandInProgram, compile, differences};
 pub(crate) use compile::{compile_empty, recipe};
 pub use framework::Framework;

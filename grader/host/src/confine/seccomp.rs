@@ -127,8 +127,6 @@ fn loading() -> Option<Rules> {
     let mut rules = computing(NOT_KNOWN_YET)?;
     let calls = [
         SYS_execve,
-        // Which files, Landlock decides.
-        SYS_openat,
         SYS_pread64,
         // Shared libraries are executed.
         SYS_mmap,
@@ -147,6 +145,9 @@ fn loading() -> Option<Rules> {
         SYS_seccomp,
     ];
     rules.extend(calls.map(|call| (call, Vec::new())));
+    // Which files may be opened, Landlock decides, but for those that are not opened to be read or written.
+    let path_only = u64::try_from(O_PATH).ok()?;
+    rules.insert(SYS_openat, vec![one(condition(2, SeccompCmpOp::MaskedEq(path_only), 0)?)?]);
     // Processors with a longer history have older names for the same.
     #[cfg(target_arch = "x86_64")]
     rules
