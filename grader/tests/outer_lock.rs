@@ -173,7 +173,7 @@ fn a_program_of_another_shape_is_found() {
         (pointer(".preinit_array"), ".preinit_array"),
         (pointer(".ctors"), ".ctors"),
         ("\".pushsection .init, \\\"ax\\\"\", \"nop\", \".popsection\", \"ret\"".to_owned(), ".init"),
-        ("\".pushsection .mine, \\\"aw\\\"\", \".quad 1\", \".popsection\", \"ret\"".to_owned(), ".mine"),
+        ("\".pushsection .mine, \\\"awR\\\"\", \".quad 1\", \".popsection\", \"ret\"".to_owned(), ".mine"),
         ("\".globl __gmon_start__\", \"__gmon_start__:\", \"ret\"".to_owned(), "__gmon_start__"),
         ("\".globl memcpy\", \"memcpy:\", \"ret\"".to_owned(), "memcpy"),
         (

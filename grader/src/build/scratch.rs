@@ -41,7 +41,11 @@ impl Scratch {
     fn of(account: Arc<Account>) -> Result<Self> {
         static ONCE: Once = Once::new();
         ONCE.call_once(|| remove_left_behind(&std::env::temp_dir()));
-        let folder = tempfile::Builder::new().prefix(PREFIX).tempdir()?;
+        let mut builder = tempfile::Builder::new();
+        // Nobody but its user may look into it, whatever the grader's own mask of modes.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
+        let folder = builder.prefix(PREFIX).tempdir()?;
         let in_use = File::create(folder.path().join(IN_USE))?;
         // A file system without locks leaves more behind, and works otherwise.
         let _ = in_use.try_lock();
