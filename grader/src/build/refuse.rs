@@ -133,7 +133,9 @@ fn refusals(tokens: TokenStream) -> Vec<Refusal> {
                         refuse("`extern`".to_owned(), FOREIGN);
                     }
                     let path = place == Place::Path || is(before(1), ':') && is(before(2), ':');
-                    if MACROS.contains(&name) || name == "asm" && (path || is(next, '!')) {
+                    // A comparison has no group after the mark.
+                    let call = is(next, '!') && matches!(tokens.get(index + 2), Some(TokenTree::Group(_)));
+                    if MACROS.contains(&name) || name == "asm" && (path || call) {
                         refuse(format!("{name}!"), ASSEMBLER);
                     }
                 }
