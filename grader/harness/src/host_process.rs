@@ -1,8 +1,11 @@
 //! The process that runs a hand-in, seen from the grader.
 
+mod expected;
+
 use std::borrow::Cow;
 use std::io::{BufReader, ErrorKind, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
@@ -10,14 +13,16 @@ use arty::integrator::Settings;
 use arty::scene::SceneDescription;
 use host::protocol::{
     ProbeJob, ProbedPath, RenderJob, Rendered, ReplayJob, Replayed, Request, Response, UNCONFINED,
-    read_message, write_message,
+    write_message,
 };
-use serde::{Deserialize, Serialize};
-
-use crate::build::HandInProgram;
-use crate::sandbox::{self, Layers, Profile};
+use verdict::check::Fault;
 use verdict::error::{Error, Result};
 use verdict::text::clean;
+
+use crate::build::HandInProgram;
+use crate::job::JobError;
+use crate::sandbox::{self, Account, Layers, Profile};
+use expected::Expected;
 
 /// A running hand-in.
 ///
@@ -25,6 +30,8 @@ use verdict::text::clean;
 pub struct HostProcess {
     child: Child,
     requests: Sender<Vec<u8>>,
+    /// What the next answer can be: none is read before it is asked for.
+    expected: Sender<Expected>,
     responses: Receiver<std::io::Result<Option<Response>>>,
     scenes: u32,
     job_time: Duration,
@@ -35,6 +42,12 @@ pub struct HostProcess {
     layers: Layers,
     /// Whether it was ended because it took too long.
     ended: bool,
+    /// What it did instead of starting, if it did not: its answer to all jobs.
+    failed: Option<Fault>,
+    /// Processes that the machine had ended for want of memory when this one started.
+    kills: Option<u64>,
+    /// Nobody else has its user id as long as it runs.
+    _account: Arc<Account>,
 }
 
 /// A job is tried with this part of it, to see whether it will ever end …
@@ -43,45 +56,8 @@ const FIRST_PART: usize = 8;
 /// … within this part of the time: a third more than its share.
 const FIRST_PART_TIME: u32 = 6;
 
-/// What a hand-in can do instead of answering. Each is a finding about it.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Fault {
-    /// It panicked.
-    Panic(String),
-    /// It did not answer within this time.
-    Timeout(Duration),
-    /// It would not have answered in time: it did not finish the first part of a job within this time.
-    TooSlow(Duration),
-    /// Its process ended.
-    Crash(String),
-    /// Its answer was not what was asked for.
-    Malformed(String),
-}
-
-impl std::fmt::Display for Fault {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Panic(message) => write!(f, "it panicked: {message}"),
-            Self::Timeout(time) => write!(f, "it did not finish within {} s", time.as_secs_f64()),
-            Self::TooSlow(time) => {
-                write!(f, "it did not finish the first eighth of a job within {} s", time.as_secs_f64())
-            }
-            Self::Crash(status) => write!(f, "its process ended early ({status})"),
-            Self::Malformed(what) => write!(f, "its answer was not what was asked for ({what})"),
-        }
-    }
-}
-
-impl Fault {
-    /// The same fault, where only the first part of a job was asked for, within this time.
-    fn of_first_part(self, time: Duration) -> Self {
-        if self == Self::Timeout(time) { Self::TooSlow(time) } else { self }
-    }
-}
-
-/// The outer error is the harness's, the inner one the hand-in's.
-type Answer<T> = Result<std::result::Result<T, Fault>>;
+/// The answer to a job.
+type Answer<T> = std::result::Result<T, JobError>;
 
 impl HostProcess {
     /// Starts the program in a sandbox, with an empty environment, in a folder of its own.
@@ -106,15 +82,19 @@ impl HostProcess {
             .stdout(Stdio::piped())
             // What a hand-in prints is nobody's verdict.
             .stderr(Stdio::null());
-        sandbox::prepare(&mut command, Profile::Host { threads }, limits)?;
+        let account = Arc::clone(program.account());
+        let profile = Profile::Host { program: &program.executable, account: &account, threads };
+        let set = sandbox::prepare(&mut command, profile, limits)?;
+        let kills = sandbox::out_of_memory_kills();
         let mut child = spawn(&mut command).map_err(trouble)?;
+        let layers = sandbox::confirmed(&child, set);
         let requests = send(child.stdin.take().expect("stdin is piped"));
-        let responses = receive(child.stdout.take().expect("stdout is piped"), limits.answer);
+        let (expected, responses) = receive(child.stdout.take().expect("stdout is piped"));
         let job_time = limits.job_time;
-        let layers = Layers::default();
         let mut process = Self {
             child,
             requests,
+            expected,
             responses,
             scenes: 0,
             job_time,
@@ -122,17 +102,26 @@ impl HostProcess {
             tried: None,
             layers,
             ended: false,
+            failed: None,
+            kills,
+            _account: account,
         };
-        match process.answer(job_time, job_time)? {
-            Ok(Response::Started(host::confine::Layers { landlock, seccomp, limits, unprivileged })) => {
-                process.layers = Layers { landlock, seccomp, limits, unprivileged };
-            }
-            Ok(_) => return Err(Error::Harness("the hand-in's program did not say that it is there".into())),
-            Err(fault) => {
-                return Err(Error::Harness(format!("the hand-in's program does not start: {fault}")));
-            }
-        }
+        let _ = process.expected.send(Expected::start());
+        process.failed = match process.answer(job_time, job_time) {
+            Ok(Response::Started) => None,
+            Ok(_) => Some(Fault::Malformed("it did not say that it is there".to_owned())),
+            Err(JobError::Submission(fault)) => Some(fault),
+            Err(JobError::Harness(error)) => return Err(error),
+        };
         Ok(process)
+    }
+
+    /// What the program did instead of starting, if it did not. Its jobs end with the same.
+    ///
+    /// Whether programs start at all on this machine is tried with an empty hand-in before: so this is a fault of the
+    /// hand-in.
+    pub fn fault(&self) -> Option<&Fault> {
+        self.failed.as_ref()
     }
 
     /// The same process, which may take no longer than this for all that it is asked.
@@ -142,7 +131,8 @@ impl HostProcess {
         self
     }
 
-    /// How the process is confined: what held when it was tried, before any code of the hand-in.
+    /// How the process is confined: what the grader set before the program was started, and the kernel confirmed. The
+    /// process itself has no say in it.
     pub fn layers(&self) -> Layers {
         self.layers
     }
@@ -150,12 +140,11 @@ impl HostProcess {
     /// Sends a scene, and gives the number by which jobs refer to it.
     pub fn load(&mut self, scene: &SceneDescription) -> Answer<u32> {
         match self.ask(&Request::Scene(Cow::Borrowed(scene)), self.job_time)? {
-            Ok(Response::SceneReady) => {
+            Response::SceneReady => {
                 self.scenes += 1;
-                Ok(Ok(self.scenes - 1))
+                Ok(self.scenes - 1)
             }
-            Ok(other) => unexpected(other),
-            Err(fault) => Ok(Err(fault)),
+            other => Err(unexpected(other)),
         }
     }
 
@@ -172,23 +161,19 @@ impl HostProcess {
         let part = |seeds: &[u64]| RenderJob { seeds: seeds.to_vec(), ..job.clone() };
         let (first, rest) = job.seeds.split_at(first);
         let time = self.job_time / FIRST_PART_TIME;
-        let mut rendered = match self.render_in_time(&part(first), time)? {
-            Ok(rendered) => rendered,
-            Err(fault) => return Ok(Err(fault.of_first_part(time))),
-        };
+        let mut rendered =
+            self.render_in_time(&part(first), time).map_err(|error| of_first_part(error, time))?;
         self.tried = place;
-        Ok(self.render_in_time(&part(rest), self.job_time)?.map(|more| {
-            rendered.append(more);
-            rendered
-        }))
+        rendered.append(self.render_in_time(&part(rest), self.job_time)?);
+        Ok(rendered)
     }
 
     fn render_in_time(&mut self, job: &RenderJob, time: Duration) -> Answer<Rendered> {
-        let (pixels, batches) = ((job.width * job.height) as usize, job.seeds.len());
+        self.require_scene(job.scene)?;
+        let (pixels, batches) = (job.width as usize * job.height as usize, job.seeds.len());
         match self.ask(&Request::Render(Cow::Borrowed(job)), time)? {
-            Ok(Response::Rendered(rendered)) => Ok(check_shape(rendered, batches, pixels)),
-            Ok(other) => unexpected(other),
-            Err(fault) => Ok(Err(fault)),
+            Response::Rendered(rendered) => Ok(check_shape(rendered, batches, pixels)?),
+            other => Err(unexpected(other)),
         }
     }
 
@@ -199,52 +184,60 @@ impl HostProcess {
         let first = job.samples / FIRST_PART as u64;
         if first > 0 {
             let (job, time) = (ProbeJob { samples: first, ..job.clone() }, self.job_time / FIRST_PART_TIME);
-            if let Err(fault) = self.probe_in_time(&job, time)? {
-                return Ok(Err(fault.of_first_part(time)));
-            }
+            self.probe_in_time(&job, time).map_err(|error| of_first_part(error, time))?;
         }
         self.probe_in_time(job, self.job_time)
     }
 
     fn probe_in_time(&mut self, job: &ProbeJob, time: Duration) -> Answer<Vec<Vec<ProbedPath>>> {
+        if job.stratified && !(job.samples.is_power_of_two() && job.samples <= 1 << 20) {
+            return Err(Error::Harness(format!("{} paths cannot be stratified", job.samples)).into());
+        }
         match self.ask(&Request::Probe(Cow::Borrowed(job)), time)? {
-            Ok(Response::Probed(paths)) => {
-                let whole = paths.len() == job.scenes.len()
+            Response::Probed(paths) => {
+                let is_whole = paths.len() == job.scenes.len()
                     && paths.iter().all(|paths| paths.len() as u64 == job.samples);
-                Ok(if whole {
-                    Ok(paths)
-                } else {
-                    Err(Fault::Malformed("the number of scenes or paths is wrong".to_owned()))
-                })
+                if is_whole { Ok(paths) } else { Err(malformed("the number of scenes or paths is wrong")) }
             }
-            Ok(other) => unexpected(other),
-            Err(fault) => Ok(Err(fault)),
+            other => Err(unexpected(other)),
         }
     }
 
-    /// Follows one path again, with every call written down. Its numbers may be anything.
+    /// Follows one path again, with every call written down. Its numbers may be anything; its words are cleaned.
     pub fn replay(&mut self, job: ReplayJob) -> Answer<Replayed> {
+        self.require_scene(job.scene)?;
         match self.ask(&Request::Replay(job), self.job_time)? {
-            Ok(Response::Replayed(path)) => Ok(Ok(path)),
-            Ok(other) => unexpected(other),
-            Err(fault) => Ok(Err(fault)),
+            Response::Replayed(path) => Ok(clean_words(path)),
+            other => Err(unexpected(other)),
         }
+    }
+
+    /// The grader's own mistakes are found here: what the process says of a job is a matter of the hand-in.
+    fn require_scene(&self, scene: u32) -> Result<()> {
+        if scene < self.scenes {
+            return Ok(());
+        }
+        Err(Error::Harness(format!("there is no scene {scene}: {} were sent", self.scenes)))
     }
 
     fn ask(&mut self, request: &Request<'_>, time: Duration) -> Answer<Response> {
+        if let Some(fault) = &self.failed {
+            return Err(fault.clone().into());
+        }
         let mut bytes = Vec::new();
         write_message(&mut bytes, request)
             .map_err(|error| Error::Harness(format!("a job cannot be sent: {error}")))?;
         // If nobody takes it any more, there will be no answer either.
+        let _ = self.expected.send(Expected::answer_to(request));
         let _ = self.requests.send(bytes);
         let Some([all, left]) = self.all_jobs else { return self.answer(time, self.job_time) };
         let start = Instant::now();
-        let answer = self.answer(time.min(left), self.job_time.min(left))?;
+        let answer = self.answer(time.min(left), self.job_time.min(left));
         self.all_jobs = Some([all, left.saturating_sub(start.elapsed())]);
-        Ok(answer.map_err(|fault| match fault {
-            Fault::Timeout(_) if left < time => Fault::Timeout(all),
-            fault => fault,
-        }))
+        answer.map_err(|error| match error {
+            JobError::Submission(Fault::Timeout(_)) if left < time => Fault::Timeout(all.as_secs_f64()).into(),
+            error => error,
+        })
     }
 
     /// What the process says next, in time. If it had less than half of that time on a processor, because the machine
@@ -259,17 +252,17 @@ impl HostProcess {
                 time = most;
             }
         }
-        Ok(match said {
+        match said {
             Ok(Ok(Some(response))) => Ok(response),
-            Ok(Ok(None)) | Err(RecvTimeoutError::Disconnected) => Err(self.crash()?),
-            Ok(Err(error)) if error.kind() == ErrorKind::UnexpectedEof => Err(self.crash()?),
-            Ok(Err(error)) => Err(Fault::Malformed(clean(&error.to_string()))),
+            Ok(Ok(None)) | Err(RecvTimeoutError::Disconnected) => Err(self.crash()?.into()),
+            Ok(Err(error)) if error.kind() == ErrorKind::UnexpectedEof => Err(self.crash()?.into()),
+            Ok(Err(error)) => Err(malformed(&clean(&error.to_string()))),
             Err(RecvTimeoutError::Timeout) => {
                 sandbox::end(&mut self.child);
                 self.ended = true;
-                Err(Fault::Timeout(time))
+                Err(Fault::Timeout(time.as_secs_f64()).into())
             }
-        })
+        }
     }
 
     /// How the process ended by itself.
@@ -279,7 +272,7 @@ impl HostProcess {
         if let Ok(Some(status)) = self.child.try_wait()
             && !self.ended
         {
-            sandbox::blame_machine(status, "the hand-in's program")?;
+            sandbox::blame_machine(status, self.kills, "the hand-in's program")?;
         }
         sandbox::end(&mut self.child);
         Ok(Fault::Crash(self.child.wait().map_or_else(|error| error.to_string(), describe)))
@@ -306,8 +299,15 @@ fn spawn(command: &mut Command) -> std::io::Result<Child> {
 fn describe(status: ExitStatus) -> String {
     #[cfg(unix)]
     if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
-        let abort = rustix::process::Signal::ABORT.as_raw();
-        let why = if signal == abort { ": out of memory, stack overflow, or it aborted itself" } else { "" };
+        use rustix::process::Signal;
+        let is = |other: Signal| signal == other.as_raw();
+        let why = if is(Signal::ABORT) {
+            ": out of memory, stack overflow, or it aborted itself"
+        } else if is(Signal::SEGV) {
+            ": stack overflow, or memory that is not its own"
+        } else {
+            ""
+        };
         return format!("{status}{why}");
     }
     status.to_string()
@@ -326,20 +326,21 @@ fn send(mut pipe: ChildStdin) -> Sender<Vec<u8>> {
     sender
 }
 
-/// Has a thread read messages of at most `limit` bytes.
-fn receive(pipe: ChildStdout, limit: u32) -> Receiver<std::io::Result<Option<Response>>> {
+/// Has a thread read answers, each when it is expected and no earlier: what nobody asked for stays in the pipe.
+fn receive(pipe: ChildStdout) -> (Sender<Expected>, Receiver<std::io::Result<Option<Response>>>) {
     let (sender, responses) = channel();
+    let (expected, queue) = channel::<Expected>();
     std::thread::spawn(move || {
         let mut answers = BufReader::new(pipe);
-        loop {
-            let message = read_message(&mut answers, limit);
+        for expected in queue {
+            let message = expected.read(&mut answers);
             let last = !matches!(message, Ok(Some(_)));
             if sender.send(message).is_err() || last {
                 break;
             }
         }
     });
-    responses
+    (expected, responses)
 }
 
 impl Drop for HostProcess {
@@ -349,16 +350,53 @@ impl Drop for HostProcess {
     }
 }
 
-fn unexpected<T>(response: Response) -> Answer<T> {
-    match response {
-        Response::Panicked { message } => Ok(Err(Fault::Panic(clean(&message)))),
-        Response::Rejected { message } => Err(Error::Harness(format!("the host rejected a job: {message}"))),
-        Response::Started(_) => Ok(Err(Fault::Malformed("it started anew".to_owned()))),
-        Response::SceneReady => Ok(Err(Fault::Malformed("it only said that a scene is ready".to_owned()))),
-        Response::Replayed(_) => Ok(Err(Fault::Malformed("a path that nobody asked for".to_owned()))),
-        Response::Probed(_) => Ok(Err(Fault::Malformed("paths that nobody asked for".to_owned()))),
-        Response::Rendered(_) => Ok(Err(Fault::Malformed("a rendering that nobody asked for".to_owned()))),
+/// The same error, where only the first part of a job was asked for, within this time.
+fn of_first_part(error: JobError, time: Duration) -> JobError {
+    match error {
+        JobError::Submission(Fault::Timeout(seconds)) if seconds == time.as_secs_f64() => {
+            Fault::TooSlow(seconds).into()
+        }
+        error => error,
     }
+}
+
+fn malformed(what: &str) -> JobError {
+    Fault::Malformed(what.to_owned()).into()
+}
+
+fn unexpected(response: Response) -> JobError {
+    match response {
+        Response::Panicked { message } => Fault::Panic(clean(&message)).into(),
+        // The host rejects only what the grader has made sure that it does not send.
+        Response::Rejected { message } => malformed(&format!("it rejected a job: {}", short(&message))),
+        Response::Started => malformed("it started anew"),
+        Response::SceneReady => malformed("it only said that a scene is ready"),
+        Response::Replayed(_) => malformed("a path that nobody asked for"),
+        Response::Probed(_) => malformed("paths that nobody asked for"),
+        Response::Rendered(_) => malformed("a rendering that nobody asked for"),
+    }
+}
+
+/// Words of a process that a person will see: clean, and no more than anyone will read.
+fn short(words: &str) -> String {
+    let words = clean(words).replace('\n', " ");
+    match words.char_indices().nth(LONGEST_WORDS) {
+        Some((end, _)) => format!("{} …", &words[..end]),
+        None => words,
+    }
+}
+
+/// Characters of a text that should not be there at all.
+const LONGEST_WORDS: usize = 200;
+
+fn clean_words(mut path: Replayed) -> Replayed {
+    for call in &mut path.calls {
+        let names = call.given.iter_mut().chain(&mut call.got).map(|(name, _)| name);
+        for word in names.chain([&mut call.function]) {
+            *word = short(word);
+        }
+    }
+    path
 }
 
 fn check_shape(rendered: Rendered, batches: usize, pixels: usize) -> std::result::Result<Rendered, Fault> {

@@ -7,6 +7,7 @@
 pub mod assignment;
 pub mod build;
 pub mod host_process;
+pub mod job;
 pub mod sandbox;
 pub mod scan;
 pub mod tree_hash;

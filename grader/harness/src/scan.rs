@@ -6,7 +6,6 @@
 use std::str::FromStr;
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
-use verdict::report::Reason;
 use verdict::submission::SourceFinding;
 
 /// Findings that are listed at most.
@@ -53,7 +52,6 @@ pub fn scan(source: &str) -> Vec<SourceFinding> {
                 .or_else(|| is_path_into_std(rest).then(|| module(rest.get(3)?)).flatten())
                 .or_else(|| (below_std && starts).then(|| module(token)).flatten());
             findings.extend(found.map(|(what, why)| SourceFinding {
-                reason: Reason::Violation,
                 line: token.span().start().line,
                 what,
                 why: why.to_owned(),

@@ -1,23 +1,70 @@
-//! What sandbox hand-ins get on this machine, found out with an empty one before any code of a student is compiled.
+//! Whether hand-ins can be graded on this machine, found out with an empty one before any code of a student is compiled.
 
-use crate::build::{EMPTY_HAND_IN, Framework, compile};
-use crate::host_process::HostProcess;
-use crate::sandbox::{Level, Limits};
+use arty::integrator::{Settings, Technique};
+use arty::math::{Rgb, Vec3};
+use arty::scene::{CameraDescription, Defaults, Material, Mesh, MeshTriangle, SceneDescription, Specular};
+use host::protocol::RenderJob;
+use verdict::check::Fault;
 use verdict::error::{Error, Result};
 use verdict::report::Sandbox;
 
-/// Refuses a machine whose sandbox is worse than `limits.least`. A machine on which nothing compiles or starts is not
-/// refused here: it says so of each hand-in, and earlier results are kept.
+use crate::build::{Framework, compile_empty};
+use crate::host_process::HostProcess;
+use crate::job::JobError;
+use crate::sandbox::{Level, Limits};
+
+/// Has an empty hand-in compiled, started, and render a picture. What it cannot do is the fault of the machine or of the
+/// framework, and not of the hand-ins that cannot do it either.
 ///
 /// # Errors
-/// If the sandbox is worse.
-pub fn require_on_this_machine(framework: &Framework, limits: &Limits) -> Result<()> {
-    if limits.least == Level::None {
-        return Ok(());
+/// If it cannot, or if the sandbox is worse than `limits.least`.
+pub fn require_that_hand_ins_work(framework: &Framework, limits: &Limits) -> Result<()> {
+    let program = compile_empty(framework, limits)?;
+    let mut process = HostProcess::start(&program, 1)?;
+    process.fault().map_or(Ok(()), |fault| Err(failed(fault)))?;
+    require(&Sandbox::new(program.layers, process.layers(), Vec::new()), limits.least)?;
+    let settings = Settings { technique: Technique::Nee, max_bounces: 1 };
+    let rendered = process
+        .load(&empty_scene())
+        .and_then(|scene| process.render(&RenderJob::new(scene, settings, [4, 4], vec![1], 1)))
+        .map_err(|error| match error {
+            JobError::Submission(fault) => failed(&fault),
+            JobError::Harness(error) => error,
+        })?;
+    if rendered.batches.iter().flatten().flatten().any(|&value| value != 0.0) {
+        return Err(failed(&Fault::Malformed("a picture that is not black".to_owned())));
     }
-    let Ok(Ok(program)) = compile(framework, EMPTY_HAND_IN, limits) else { return Ok(()) };
-    let Ok(host) = HostProcess::start(&program, 1) else { return Ok(()) };
-    require(&Sandbox::new(program.layers, host.layers(), Vec::new()), limits.least)
+    Ok(())
+}
+
+fn failed(fault: &Fault) -> Error {
+    Error::Harness(format!("not even an empty submission works here: {fault}"))
+}
+
+/// A triangle in front of a camera, and no light.
+fn empty_scene() -> SceneDescription {
+    let corner = |x: f32, y: f32| Vec3::new(x, y, 0.0);
+    let triangle = MeshTriangle { positions: [0, 1, 2], normals: None, uvs: None, material: 0 };
+    let mesh = Mesh {
+        positions: vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(0.0, 1.0)],
+        triangles: vec![triangle],
+        ..Mesh::default()
+    };
+    let material = Material {
+        name: "gray".to_owned(),
+        diffuse: Rgb::gray(0.5),
+        diffuse_map: None,
+        specular: Specular::None,
+        emission: Rgb::BLACK,
+    };
+    SceneDescription {
+        camera: CameraDescription { eye: Vec3::Z, center: Vec3::ZERO, up: Vec3::Y, fov: 60.0 },
+        meshes: vec![mesh],
+        materials: vec![material],
+        textures: Vec::new(),
+        lights: Vec::new(),
+        defaults: Defaults::default(),
+    }
 }
 
 /// Refuses a sandbox that is worse than `least`.
@@ -28,9 +75,9 @@ pub fn require(sandbox: &Sandbox, least: Level) -> Result<()> {
     if sandbox.level >= least {
         return Ok(());
     }
-    let Sandbox { level, missing, .. } = sandbox;
+    let Sandbox { level, .. } = sandbox;
     Err(Error::Input(format!(
-        "the sandbox is `{level}` here ({missing}), and `{least}` is asked for: see `grader doctor`, or give \
-         --allow-sandbox={level} if you trust everybody whose file is graded"
+        "the sandbox is `{level}` here, and `{least}` is asked for: run `cargo grader doctor` to see what is missing, or \
+         give --allow-sandbox={level} if you trust everybody whose file is graded"
     )))
 }

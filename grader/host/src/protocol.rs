@@ -10,8 +10,6 @@ use arty::math::Vec3;
 use arty::scene::SceneDescription;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
-use crate::confine::Layers;
-
 /// The longest message that is read, in bytes. Scenes are the longest: a million triangles take about 60 MB.
 pub const MAX_MESSAGE: u32 = 512 << 20;
 
@@ -43,14 +41,6 @@ pub struct ReplayJob {
     pub pixel: [u32; 2],
     /// The number of the sample.
     pub sample: u64,
-    impl RenderJob {
-    /// A job that renders one batch for each seed, `samples` per pixel, beginning with the first sample.
-    pub fn new(scene: u32, settings: Settings, [width, height]: [u32; 2], seeds: Vec<u64>, samples: u64) -> Self {
-        let (first_sample, switches) = (0, Switches::default());
-        Self { scene, settings, width, height, seeds, first_sample, samples, switches }
-    }
-}
-
 /// Which ways of finding light are enabled.
     pub switches: Switches,
 }
@@ -74,6 +64,14 @@ pub struct RenderJob {
     pub samples: u64,
     /// Which ways of finding light are enabled.
     pub switches: Switches,
+}
+
+impl RenderJob {
+    /// A job that renders one batch for each seed, `samples` per pixel, beginning with the first sample.
+    pub fn new(scene: u32, settings: Settings, [width, height]: [u32; 2], seeds: Vec<u64>, samples: u64) -> Self {
+        let (first_sample, switches) = (0, Switches::default());
+        Self { scene, settings, width, height, seeds, first_sample, samples, switches }
+    }
 }
 
 /// Which ways of finding light are enabled. By default all of them.
@@ -147,8 +145,8 @@ pub const UNCONFINED: &str = "--unconfined";
 /// An answer of the host: exactly one to each request, after one that says that it is there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Response {
-    /// The host is ready for requests, and confined as it says; no code of the hand-in has run yet.
-    Started(Layers),
+    /// The host is ready for requests. How it is confined, the grader knows.
+    Started,
     /// The scene is built.
     SceneReady,
     /// The batches are rendered.
@@ -162,7 +160,7 @@ pub enum Response {
         /// What it said.
         message: String,
     },
-    /// The request made no sense: a mistake of the grader.
+    /// The request made no sense. The grader sends none that does not: whoever says so is a hand-in.
     Rejected {
         /// Why.
         message: String,
@@ -257,6 +255,11 @@ pub fn write_message(writer: &mut impl Write, message: &impl Serialize) -> io::R
 
 /// Reads one message of at most `limit` bytes; `None` at the end of the stream.
 pub fn read_message<T: DeserializeOwned>(reader: &mut impl Read, limit: u32) -> io::Result<Option<T>> {
+    read_bytes(reader, limit)?.map(|bytes| decode(&bytes)).transpose()
+}
+
+/// Reads the bytes of one message, at most `limit` of them; `None` at the end of the stream.
+pub fn read_bytes(reader: &mut impl Read, limit: u32) -> io::Result<Option<Vec<u8>>> {
     let mut length = [0; 4];
     if reader.read(&mut length[..1])? == 0 {
         return Ok(None);
@@ -272,12 +275,17 @@ pub fn read_message<T: DeserializeOwned>(reader: &mut impl Read, limit: u32) -> 
     if bytes.len() < length as usize {
         return Err(io::ErrorKind::UnexpectedEof.into());
     }
-    let (message, rest) = postcard::take_from_bytes(&bytes)
+    Ok(Some(bytes))
+}
+
+/// The message that these bytes are.
+pub fn decode<T: DeserializeOwned>(bytes: &[u8]) -> io::Result<T> {
+    let (message, rest) = postcard::take_from_bytes(bytes)
         .map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error))?;
     if !rest.is_empty() {
         return Err(io::Error::new(io::ErrorKind::InvalidData, "bytes after the message"));
     }
-    Ok(Some(message))
+    Ok(message)
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use crate::image_error::hdr_flip;
 use harness::build::HandInProgram;
 use harness::host_process::HostProcess;
+use harness::job::apart;
 use harness::workspace::Workspace;
 use verdict::check::{CheckKind, Reason, Verdict};
 use verdict::error::Result;
@@ -78,7 +79,7 @@ fn picture(
         return Ok(None);
     };
     let mut process = HostProcess::start(hand_in, threads)?;
-    let Ok(index) = process.load(&description)? else { return Ok(None) };
+    let Ok(index) = apart(process.load(&description))? else { return Ok(None) };
     let mut picture = Picture {
         scene: scene.to_owned(),
         max_bounces,
@@ -98,7 +99,7 @@ fn picture(
             picture.seeds.clone(),
             SAMPLES,
         );
-        let Ok(rendered) = process.render(&job)? else { break };
+        let Ok(rendered) = apart(process.render(&job))? else { break };
         all.push((technique, rendered.batches));
     }
     drop(process);

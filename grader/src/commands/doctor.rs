@@ -40,7 +40,13 @@ pub(super) fn run(_: &Arguments) -> Result<ExitCode> {
 
     let starter = intake::read(&workspace.student_file())?;
     let host = match compile(&framework, &starter.source, &limits)? {
-        Ok(program) => Some((program.layers, HostProcess::start(&program, 1)?.layers())),
+        Ok(program) => {
+            let process = HostProcess::start(&program, 1)?;
+            if let Some(fault) = process.fault() {
+                say("starting file", format!("does not start: {fault}"));
+            }
+            Some((program.layers, process.layers()))
+        }
         Err(failure) => {
             say(
                 "starting file",

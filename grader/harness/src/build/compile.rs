@@ -3,15 +3,18 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::Framework;
+use super::refuse::{Look, look};
 use super::scratch::Scratch;
-use crate::sandbox::{self, Layers, Limits, Profile};
-use serde::Deserialize;
+use super::shape::Shape;
+use super::{Framework, refuse};
 use verdict::error::{Error, Result};
-use verdict::submission::BuildFailure;
+use crate::sandbox::{self, Account, Layers, Limits, Profile};
 use verdict::text::clean;
+use serde::Deserialize;
+use verdict::submission::BuildFailure;
 
 /// The program around a hand-in.
 const PROGRAM: &str = include_str!("../../../host/program/main.rs");
@@ -27,26 +30,31 @@ pub struct HandInProgram {
     pub limits: Limits,
     /// How rustc was confined, if it was called now.
     pub layers: Layers,
-    _folder: Scratch,
+    folder: Scratch,
 }
 
 impl HandInProgram {
+    /// The user that it is run as.
+    pub(crate) fn account(&self) -> &Arc<Account> {
+        self.folder.account()
+    }
+
     /// A program that was compiled before, from the bytes of its executable.
     pub fn again(executable: &[u8], limits: &Limits) -> Result<Self> {
         let trouble = |error| Error::Harness(format!("a program cannot be copied: {error}"));
-        let folder = Scratch::new().map_err(trouble)?;
+        let folder = Scratch::new()?;
         let file = folder.path().join(executable_name());
         std::fs::write(&file, executable).map_err(trouble)?;
         #[cfg(unix)]
         std::fs::set_permissions(&file, std::os::unix::fs::PermissionsExt::from_mode(0o755))
             .map_err(trouble)?;
-        sandbox::hand_over(folder.path())?;
+        folder.hand_over()?;
         Ok(Self {
             executable: file,
             compile_time: Duration::ZERO,
             limits: *limits,
             layers: Layers::default(),
-            _folder: folder,
+            folder,
         })
     }
 }
@@ -57,7 +65,7 @@ pub fn recipe() -> blake3::Hash {
 }
 
 /// A hand-in that compiles wherever compiling works at all.
-pub const EMPTY_HAND_IN: &str = "use arty::prelude::*;
+pub(crate) const EMPTY_HAND_IN: &str = "use arty::prelude::*;
 pub struct PathTracer;
 impl PathTracer { pub fn new(_: Settings) -> Self { Self } }
 impl Integrator for PathTracer {
@@ -65,8 +73,104 @@ impl Integrator for PathTracer {
 }
 ";
 
-/// Compiles the source of a hand-in, in a sandbox. The outer error is the harness's, the inner one the hand-in's.
+/// Compiles the source of a hand-in, in a sandbox, unless it says something that has it refused, and looks at what was
+/// linked. The outer error is the harness's, the inner one the hand-in's.
 pub fn compile(
+    framework: &Framework,
+    source: &str,
+    limits: &Limits,
+) -> Result<std::result::Result<HandInProgram, BuildFailure>> {
+    if !limits.inspect {
+        return compile_anywhere(framework, source, limits);
+    }
+    let look = look(source);
+    if let Look::Through(refusals) = &look
+        && !refusals.is_empty()
+    {
+        return Ok(Err(refused(refusals)));
+    }
+    // Mostly it is known already; if not, there is a core for it.
+    let (usual, compiled) =
+        rayon::join(|| usual_shape(framework, limits), || compile_anywhere(framework, source, limits));
+    let program = match compiled? {
+        Ok(program) => program,
+        Err(failure) => return Ok(Err(failure)),
+    };
+    if let Look::Unreadable(line) = look {
+        let why = "this cannot be read, though rustc can: write it in another way";
+        return Ok(Err(not_run(Some(line), &[why.to_owned()])));
+    }
+    usual?;
+    let differences = differences(framework, &program)?;
+    Ok(if differences.is_empty() { Ok(program) } else { Err(not_run(None, &differences)) })
+}
+
+/// In what a program differs from that of an empty hand-in, of all that decides what runs before `main`: in words, and in
+/// nothing unless something is wrong.
+///
+/// # Errors
+/// If one of them cannot be read.
+pub fn differences(framework: &Framework, program: &HandInProgram) -> Result<Vec<String>> {
+    let usual = usual_shape(framework, &program.limits)?;
+    Ok(Shape::of(&program.executable)?.differences(usual))
+}
+
+/// Compiles a hand-in that must compile wherever anything does. What is linked of others is held against it.
+///
+/// # Errors
+/// If it does not.
+pub(crate) fn compile_empty(framework: &Framework, limits: &Limits) -> Result<HandInProgram> {
+    let program = match compile_once(framework, EMPTY_HAND_IN, limits, true)? {
+        Ok(program) => program,
+        // A toolchain whose files lie where the sandbox does not expect them. The report will tell its level.
+        Err(_) => compile_once(framework, EMPTY_HAND_IN, limits, false)?.map_err(|failure| {
+            let folder = framework.dependencies.display();
+            Error::Harness(format!(
+                "not even an empty hand-in compiles here, against the libraries in {folder}:\n{}",
+                failure.messages
+            ))
+        })?,
+    };
+    framework.usual.get_or_init(|| Shape::of(&program.executable).ok());
+    Ok(program)
+}
+
+fn usual_shape<'a>(framework: &'a Framework, limits: &Limits) -> Result<&'a Shape> {
+    if framework.usual.get().is_none() {
+        compile_empty(framework, limits)?;
+    }
+    let usual = framework.usual.get().and_then(Option::as_ref);
+    usual.ok_or_else(|| Error::Harness("the program of an empty hand-in cannot be read".to_owned()))
+}
+
+/// The failure of a source that is not even compiled.
+fn refused(refusals: &[refuse::Refusal]) -> BuildFailure {
+    let lines = refusals.iter().map(|refusal| {
+        let refuse::Refusal { line, what, why } = refusal;
+        format!("error: {what} is not allowed in a hand-in\n --> render_pt.rs:{line}\n  = {why}\n")
+    });
+    let line = refusals.first().and_then(|refusal| u32::try_from(refusal.line).ok());
+    BuildFailure { messages: clean(&lines.collect::<Vec<_>>().join("\n")), line }
+}
+
+/// The failure of a program that was compiled, and must not run.
+fn not_run(line: Option<usize>, why: &[String]) -> BuildFailure {
+    let mut messages =
+        "error: the program is not run: it is not what an ordinary hand-in compiles to\n".to_owned();
+    if let Some(line) = line {
+        messages.push_str(&format!(" --> render_pt.rs:{line}\n"));
+    }
+    for why in why.iter().take(LISTED) {
+        messages.push_str(&format!("  = it has: {why}\n"));
+    }
+    BuildFailure { messages: clean(&messages), line: line.and_then(|line| u32::try_from(line).ok()) }
+}
+
+/// Differences that are listed at most.
+const LISTED: usize = 20;
+
+/// Compiles with the sandbox that the toolchain bears.
+fn compile_anywhere(
     framework: &Framework,
     source: &str,
     limits: &Limits,
@@ -83,16 +187,9 @@ pub fn compile(
     if failure.line.is_some() || compile_once(framework, EMPTY_HAND_IN, limits, true)?.is_ok() {
         return Ok(Err(failure));
     }
-    // Or a toolchain whose files lie where the sandbox does not expect them? The report will tell its level.
-    match compile_once(framework, EMPTY_HAND_IN, limits, false)? {
-        Ok(_) => compile_once(framework, source, limits, false),
-        Err(BuildFailure { messages, .. }) => {
-            let folder = framework.dependencies.display();
-            Err(Error::Harness(format!(
-                "not even an empty hand-in compiles here, against the libraries in {folder}:\n{messages}"
-            )))
-        }
-    }
+    // Or a toolchain whose files lie where the sandbox does not expect them?
+    compile_empty(framework, limits)?;
+    compile_once(framework, source, limits, false)
 }
 
 fn compile_once(
@@ -102,19 +199,20 @@ fn compile_once(
     locked: bool,
 ) -> Result<std::result::Result<HandInProgram, BuildFailure>> {
     let trouble = |what: &str, error: std::io::Error| Error::Harness(format!("{what}: {error}"));
-    let folder = Scratch::new().map_err(|error| trouble("no temporary folder", error))?;
+    let folder = Scratch::new()?;
     for (name, text) in [("main.rs", PROGRAM), ("render_pt.rs", source)] {
         std::fs::write(folder.path().join(name), text)
             .map_err(|error| trouble("the hand-in cannot be copied", error))?;
     }
     let messages = std::fs::File::create(folder.path().join(MESSAGES))
         .map_err(|error| trouble("no file for rustc's messages", error))?;
-    sandbox::hand_over(folder.path())?;
+    folder.hand_over()?;
     let mut rustc = call(framework, folder.path());
     rustc.stderr(messages);
     let grants = &framework.grants;
-    let profile = Profile::Compiler { grants, folder: folder.path(), locked };
+    let profile = Profile::Compiler { grants, folder: folder.path(), locked, account: folder.account() };
     let layers = sandbox::prepare(&mut rustc, profile, limits)?;
+    let kills = sandbox::out_of_memory_kills();
     let start = Instant::now();
     let status = run_in_time(&mut rustc, limits.compile_time)
         .map_err(|error| trouble("rustc could not be run", error))?;
@@ -123,11 +221,11 @@ fn compile_once(
         let messages = format!("rustc did not finish within {} s\n", limits.compile_time.as_secs());
         return Ok(Err(BuildFailure { messages, line: None }));
     };
-    sandbox::blame_machine(status, "rustc")?;
+    sandbox::blame_machine(status, kills, "rustc")?;
     if status.success() {
         let executable = folder.path().join(executable_name());
         let limits = *limits;
-        return Ok(Ok(HandInProgram { executable, compile_time, limits, layers, _folder: folder }));
+        return Ok(Ok(HandInProgram { executable, compile_time, limits, layers, folder }));
     }
     let messages = read_messages(&folder.path().join(MESSAGES))
         .map_err(|error| trouble("rustc's messages are gone", error))?;

@@ -1,15 +1,16 @@
 //! The prebuilt framework that every hand-in is linked against.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use super::cargo;
 use super::compiler::Compiler;
 use super::kept::{self, Kept};
+use super::shape::Shape;
+use verdict::error::Result;
 use crate::sandbox::Grants;
 use crate::tree_hash::hash_tree;
 use crate::workspace::Workspace;
-use verdict::error::Result;
 
 /// The compiled libraries of the framework, as Cargo built them from the sources of this checkout.
 ///
@@ -30,6 +31,8 @@ pub struct Framework {
     pub rustc: PathBuf,
     /// What the compiler needs to be granted.
     pub grants: Grants,
+    /// The shape of the program of an empty hand-in, once one was compiled; `None` if it could not be read.
+    pub(super) usual: Arc<OnceLock<Option<Shape>>>,
     /// Nobody removes it as long as this is there.
     kept: Option<Arc<Kept>>,
 }
@@ -85,6 +88,7 @@ impl Framework {
             arty,
             host,
             dependencies,
+            usual: Arc::default(),
             kept: None,
         }
     }

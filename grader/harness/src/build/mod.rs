@@ -5,8 +5,14 @@ mod compile;
 mod compiler;
 mod framework;
 mod kept;
+mod refuse;
 mod scratch;
+#[cfg(target_os = "linux")]
+mod shape;
+#[cfg(not(target_os = "linux"))]
+#[path = "shape_elsewhere.rs"]
+mod shape;
 
-pub use compile::{EMPTY_HAND_IN, recipe};
-pub use compile::{HandInProgram, compile};
+pub use compile::{HandInProgram, compile, differences, recipe};
+pub(crate) use compile::compile_empty;
 pub use framework::Framework;

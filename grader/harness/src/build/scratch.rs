@@ -6,10 +6,13 @@
 use std::fs::{File, OpenOptions};
 use std::io::Result;
 use std::path::Path;
-use std::sync::Once;
+use std::sync::{Arc, Once};
 use std::time::Duration;
 
 use tempfile::TempDir;
+
+use verdict::error::{self, Error};
+use crate::sandbox::Account;
 
 /// How their names begin.
 const PREFIX: &str = "arty-hand-in-";
@@ -25,18 +28,38 @@ const SURELY_LEFT: Duration = Duration::from_secs(3600);
 pub(super) struct Scratch {
     folder: TempDir,
     _in_use: File,
+    account: Arc<Account>,
 }
 
 impl Scratch {
-    /// Makes a folder. The first time, folders of graders that were interrupted are removed.
-    pub(super) fn new() -> Result<Self> {
+    /// Makes a folder, and takes a user id for it. The first time, folders of graders that were interrupted are removed.
+    pub(super) fn new() -> error::Result<Self> {
+        let account = Arc::new(Account::take()?);
+        Self::of(account).map_err(|error| Error::Harness(format!("no temporary folder: {error}")))
+    }
+
+    fn of(account: Arc<Account>) -> Result<Self> {
         static ONCE: Once = Once::new();
         ONCE.call_once(|| remove_left_behind(&std::env::temp_dir()));
-        let folder = tempfile::Builder::new().prefix(PREFIX).tempdir()?;
+        let mut builder = tempfile::Builder::new();
+        // Nobody but its user may look into it, whatever the grader's own mask of modes.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
+        let folder = builder.prefix(PREFIX).tempdir()?;
         let in_use = File::create(folder.path().join(IN_USE))?;
         // A file system without locks leaves more behind, and works otherwise.
         let _ = in_use.try_lock();
-        Ok(Self { folder, _in_use: in_use })
+        Ok(Self { folder, _in_use: in_use, account })
+    }
+
+    /// Gives the folder and its files to its user; nobody else but root can look into it.
+    pub(super) fn hand_over(&self) -> error::Result<()> {
+        self.account.own(self.path())
+    }
+
+    /// The user that it is for.
+    pub(super) fn account(&self) -> &Arc<Account> {
+        &self.account
     }
 
     /// Its path.

@@ -72,12 +72,16 @@ impl Grants {
 }
 
 /// The programs that load shared libraries, as this process has one: the kernel starts them before any other.
-fn loaders() -> BTreeSet<PathBuf> {
+pub(super) fn loaders() -> BTreeSet<PathBuf> {
+    let is_loader =
+        |path: &PathBuf| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("ld-"));
+    mapped().into_iter().filter(is_loader).collect()
+}
+
+/// The files that are mapped into this process: among them its loader and its shared libraries.
+pub(super) fn mapped() -> BTreeSet<PathBuf> {
     let maps = std::fs::read_to_string("/proc/self/maps").unwrap_or_default();
-    maps.lines()
-        .filter_map(|line| line.find('/').map(|start| PathBuf::from(&line[start..])))
-        .filter(|path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("ld-")))
-        .collect()
+    maps.lines().filter_map(|line| line.find('/').map(|start| PathBuf::from(&line[start..]))).collect()
 }
 
 /// The C compiler that rustc has link.
@@ -92,7 +96,7 @@ fn find(name: &Path) -> Option<PathBuf> {
 }
 
 /// What a C compiler says about one of its files.
-fn ask(compiler: &Path, question: &str) -> Option<PathBuf> {
+pub(super) fn ask(compiler: &Path, question: &str) -> Option<PathBuf> {
     let output = Command::new(compiler)
         .arg(question)
         .stdin(Stdio::null())

@@ -17,10 +17,10 @@ pub struct Limits {
     pub job_time: Duration,
     /// Address space of the host, in bytes, beside what its threads reserve without using it.
     pub job_memory: u64,
-    /// The longest answer that is accepted, in bytes.
-    pub answer: u32,
     /// False only to measure what the sandbox costs: files and system calls are not locked away then.
     pub sandbox: bool,
+    /// False only to test the sandbox alone: neither source nor program are inspected then.
+    pub inspect: bool,
     /// The worst sandbox in which anything of a hand-in is compiled or run.
     pub least: Level,
 }
@@ -32,8 +32,8 @@ impl Default for Limits {
             compile_memory: 4 << 30,
             job_time: Duration::from_secs(30),
             job_memory: 4 << 30,
-            answer: 256 << 20,
             sandbox: true,
+            inspect: true,
             least: Level::None,
         }
     }

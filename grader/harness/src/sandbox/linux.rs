@@ -1,7 +1,10 @@
 //! Linux: what of the sandbox this machine has, and how a process gets it before its program starts.
 
+mod account;
 mod calls;
 mod clock;
+mod loading;
+mod memory;
 mod user;
 
 use std::os::unix::process::CommandExt;
@@ -22,8 +25,10 @@ use super::{Grants, Limits};
 use user::{Switch, User, switch_user};
 use verdict::error::{Error, Result};
 
+pub(crate) use account::Account;
 pub(crate) use clock::processor_time;
-pub(crate) use user::hand_over;
+pub(crate) use loading::confirmed;
+pub(crate) use memory::out_of_memory_kills;
 
 /// What this machine can do to confine a hand-in, as it was found by trying.
 #[derive(Clone, Debug)]
@@ -93,12 +98,13 @@ struct Confinement {
     limits: Vec<(Resource, Rlimit)>,
     user: Option<Switch>,
     landlock: Option<RulesetCreated>,
-    seccomp: Option<BpfProgram>,
+    /// To be applied in this order.
+    seccomp: Vec<BpfProgram>,
 }
 
 impl Confinement {
     /// Called in the new process: it must not allocate, nor wait for a lock.
-    fn enforce(&self) -> std::io::Result<()> {
+    fn enforce(&mut self) -> std::io::Result<()> {
         close_others_on_exec();
         for &(resource, limit) in &self.limits {
             setrlimit(resource, limit)?;
@@ -112,7 +118,8 @@ impl Confinement {
         if let Some(ruleset) = &self.landlock {
             files::restrict(ruleset)?;
         }
-        if let Some(filter) = &self.seccomp {
+        seccomp::set_own_id(&mut self.seccomp);
+        for filter in &self.seccomp {
             let failed = |_| std::io::Error::from(std::io::ErrorKind::PermissionDenied);
             seccompiler::apply_filter(filter).map_err(failed)?;
         }
@@ -122,10 +129,10 @@ impl Confinement {
 
 /// See [`super::prepare`].
 pub(super) fn confine(command: &mut Command, profile: Profile<'_>, limits: &Limits) -> Result<Layers> {
-    let confinement = confinement(profile, limits)?;
+    let mut confinement = confinement(profile, limits)?;
     let layers = Layers {
         landlock: confinement.landlock.as_ref().map_or(0, |_| Machine::here().landlock),
-        seccomp: confinement.seccomp.is_some(),
+        seccomp: !confinement.seccomp.is_empty(),
         limits: true,
         unprivileged: confinement.user.is_some() || !geteuid().is_root(),
     };
@@ -141,25 +148,36 @@ fn confinement(profile: Profile<'_>, limits: &Limits) -> Result<Confinement> {
     if !limits.sandbox {
         return Ok(confinement);
     }
-    let mut switch = Switch::default();
-    if let Profile::Compiler { grants, folder, locked } = profile {
-        confinement.seccomp = machine.seccomp.then(calls::compiler_filter).flatten();
-        if locked && machine.landlock > 0 {
-            let rules = rules(grants, folder);
-            let rules = rules.map_err(|error| Error::Harness(format!("the rules of Landlock: {error}")))?;
-            confinement.landlock = Some(rules);
+    let trouble = |error| Error::Harness(format!("the rules of Landlock: {error}"));
+    let account = match profile {
+        Profile::Host { program, account, .. } => {
+            confinement.seccomp =
+                machine.seccomp.then(seccomp::loading_filters).flatten().into_iter().flatten().collect();
+            if machine.landlock > 0 {
+                confinement.landlock = Some(loading::rules(program).map_err(trouble)?);
+            }
+            account
         }
-        // A toolchain below a closed home can be read by root only. What else root could read or write, Landlock sees to;
-        // where there is no such right to give, or no Landlock, rustc stays root.
-        if machine.user == User::Other && !user::anyone_reads(grants) {
-            let landlocked = confinement.landlock.is_some();
-            let Some(right) = user::right_to_read_all().filter(|_| landlocked) else {
+        Profile::Compiler { grants, folder, locked, account } => {
+            confinement.seccomp =
+                machine.seccomp.then(calls::compiler_filter).flatten().into_iter().collect();
+            if locked && machine.landlock > 0 {
+                confinement.landlock = Some(rules(grants, folder).map_err(trouble)?);
+            }
+            // A toolchain below a closed home can be read by root only. What else root could read or write, Landlock sees
+            // to; where there is no such right to give, or no Landlock, rustc stays root.
+            if machine.user == User::Other && !user::anyone_reads(grants) {
+                let landlocked = confinement.landlock.is_some();
+                let Some(right) = user::right_to_read_all().filter(|_| landlocked) else {
+                    return Ok(confinement);
+                };
+                confinement.user = account.id().map(|id| Switch { id, reads_all: Some(right) });
                 return Ok(confinement);
-            };
-            switch.reads_all = Some(right);
+            }
+            account
         }
-    }
-    confinement.user = (machine.user == User::Other).then_some(switch);
+    };
+    confinement.user = account.id().map(|id| Switch { id, reads_all: None });
     Ok(confinement)
 }
 
@@ -170,7 +188,7 @@ fn limits_of(profile: Profile<'_>, limits: &Limits) -> Vec<(Resource, Rlimit)> {
             (limits.compile_memory, 4 * limits.compile_time.as_secs() + 1, LARGEST_FILE, 1024)
         }
         // The clock on the wall ends a job; this ends a process that nobody looks at any more.
-        Profile::Host { threads } => (limits.job_memory + RESERVED * threads as u64, 3600, 0, 64),
+        Profile::Host { threads, .. } => (limits.job_memory + RESERVED * threads as u64, 3600, 0, 64),
     };
     [
         (Resource::As, memory),

@@ -5,7 +5,7 @@ use std::process::{Child, Command, ExitStatus};
 
 use verdict::sandbox::Layers;
 
-use super::{Grants, Limits, system};
+use super::{Account, Grants, Limits, system};
 use verdict::error::{Error, Result};
 
 /// What a process is for.
@@ -23,15 +23,21 @@ pub(crate) enum Profile<'a> {
         folder: &'a Path,
         /// False where they cannot work at all once files are locked away.
         locked: bool,
+        /// Who runs them, and owns the folder.
+        account: &'a Account,
     },
-    /// A hand-in on so many threads: it locks itself in, but for what only the grader can do.
+    /// A hand-in on so many threads, which may load its program and do nothing else with files or other processes.
     Host {
+        /// The program.
+        program: &'a Path,
+        /// Who runs it.
+        account: &'a Account,
         /// Threads that render.
         threads: usize,
     },
 }
 
-/// Has a command start confined and at the head of a process group, and tells what of it the grader sees to.
+/// Has a command start confined and at the head of a process group, and tells how it will be confined.
 ///
 /// # Errors
 /// What should work on this machine does not.
@@ -54,12 +60,13 @@ pub(crate) fn end(child: &mut Child) {
     let _ = child.kill();
 }
 
-/// An error if a process ended by a signal that the grader did not send, and that its program cannot send itself: then it is
-/// the machine that had no more memory, or somebody who ended it.
+/// An error if a process was ended because the machine had no memory left. That is believed on the kernel's evidence
+/// only: `before` is [`out_of_memory_kills`](system::out_of_memory_kills) as it was before the process started. Any other
+/// end is the process's own matter.
 ///
 /// # Errors
 /// If it is so.
-pub(crate) fn blame_machine(status: ExitStatus, who: &str) -> Result<()> {
+pub(crate) fn blame_machine(status: ExitStatus, before: Option<u64>, who: &str) -> Result<()> {
     #[cfg(unix)]
     let killed = std::os::unix::process::ExitStatusExt::signal(&status)
         == Some(rustix::process::Signal::KILL.as_raw());
@@ -69,9 +76,9 @@ pub(crate) fn blame_machine(status: ExitStatus, who: &str) -> Result<()> {
         let _ = status;
         false
     };
-    if killed {
+    if killed && system::out_of_memory_kills() > before {
         return Err(Error::Harness(format!(
-            "{who} was ended from outside: a machine does so that has no memory left; grade again, with fewer --jobs"
+            "{who} was ended by the system, which had no memory left; grade again, with fewer --jobs"
         )));
     }
     Ok(())

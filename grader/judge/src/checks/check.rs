@@ -3,11 +3,11 @@
 use std::ops::RangeInclusive;
 
 use arty::integrator::Technique;
+use harness::job::JobError;
 use serde::{Deserialize, Serialize};
 use verdict::check::{
-    CheckKind, Evidence, Fault, MeanTest, Numerics, OnlyWay, Place, Reason, SceneChange, Verdict, WhyNot,
+    CheckKind, Evidence, MeanTest, Numerics, OnlyWay, Place, Reason, SceneChange, Verdict, WhyNot,
 };
-use verdict::error::Error;
 use verdict::rubric::{CheckSpec, EmissionOnHit};
 
 use super::{GradeContext, SceneWithReference};
@@ -104,27 +104,6 @@ impl Outcome {
             (self.verdict, self.reason) = (Verdict::Fail, Reason::Numerics);
         }
         Self { numerics, ..self }
-    }
-}
-
-/// Why a check could not be finished.
-#[derive(Debug)]
-pub enum JobError {
-    /// The submission did not answer as it should.
-    Submission(Fault),
-    /// Something else is wrong.
-    Harness(Error),
-}
-
-impl From<Fault> for JobError {
-    fn from(fault: Fault) -> Self {
-        Self::Submission(fault)
-    }
-}
-
-impl From<Error> for JobError {
-    fn from(error: Error) -> Self {
-        Self::Harness(error)
     }
 }
 

@@ -14,7 +14,9 @@ use verdict::error::Result;
 use verdict::replay::ReplayTarget;
 use verdict::rubric::{CheckSpec, EmissionOnHit, Task};
 
-use super::{JobError, Outcome, of_kind};
+use harness::job::JobError;
+
+use super::{Outcome, of_kind};
 use crate::reference::{Oracle, Reference, SIZE};
 
 /// Looks at a check on which nothing depends any more: a large error shows in the first, and most of what is right passes

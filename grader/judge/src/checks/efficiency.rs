@@ -67,11 +67,11 @@ impl Check for Efficiency {
         let own = moments(spec.technique)?;
         let seed = context.seed_of(spec);
         let mut process = context.start()?;
-        let loaded = process.load(&scene.description)??;
+        let loaded = process.load(&scene.description)?;
         let seeds = (0..BATCHES).map(|batch| batch_seed(seed, batch)).collect();
         let job = RenderJob::new(loaded, settings_of(spec), [SIZE.0, SIZE.1], seeds, SAMPLES);
         let mut batches = Batches::default();
-        batches.extend(&process.render(&job)??.batches, SAMPLES);
+        batches.extend(&process.render(&job)?.batches, SAMPLES);
         let samples = batches.samples_per_pixel() * u64::from(SIZE.0 * SIZE.1);
 
         let ratio_to = |expected: &Expected| VarianceRatio::new(&batches, &own.mean, &expected.deviation);
@@ -128,5 +128,7 @@ fn total(expected: &Expected) -> f64 {
 }
 
 fn moments(scene: &SceneWithReference, spec: &CheckSpec, technique: Technique) -> Result<Expected, Error> {
-    super::mean_bias::expected(&CheckSpec { technique, ..spec.clone() }, &scene.reference)
+    let mut spec = spec.clone();
+    spec.technique = technique;
+    super::mean_bias::expected(&spec, &scene.reference)
 }

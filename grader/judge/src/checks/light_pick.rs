@@ -69,7 +69,7 @@ impl Check for LightPick {
             let seed = batch_seed(context.seed_of(spec), set);
             let scenes = vec![scene.clone()];
             let paths =
-                process.probe(&ProbeJob { settings, scenes, samples: PATHS, seed, stratified: true })??;
+                process.probe(&ProbeJob { settings, scenes, samples: PATHS, seed, stratified: true })?;
             let mut mean = [0.0; 3];
             for path in paths.iter().flatten() {
                 (0..3).for_each(|channel| mean[channel] += f64::from(path.radiance[channel]) / PATHS as f64);

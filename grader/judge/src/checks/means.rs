@@ -2,9 +2,8 @@
 
 use arty::integrator::Settings;
 use arty::scene::SceneDescription;
-use host::protocol::{AnomalousSample, RenderJob, Switches};
-
 use harness::host_process::HostProcess;
+use host::protocol::{AnomalousSample, RenderJob, Switches};
 use verdict::check::{Effect, Evidence, MeanTest, Numerics, Reason, Verdict};
 use verdict::replay::ReplayTarget;
 use verdict::rubric::CheckSpec;
@@ -15,9 +14,6 @@ use crate::reference::SIZE;
 use crate::statistics::bias::Expected;
 use crate::statistics::regions::{pyramid, weighted_image};
 use crate::statistics::sequential::{Decision, Demand, Judgement, Question, judge};
-use harness::host_process::HostProcess;
-use verdict::report::{CheckResult, Reason, Verdict};
-use verdict::rubric::{CheckSpec, Hits};
 
 /// A picture whose mean is judged.
 pub(super) struct Picture<'a> {
@@ -69,7 +65,7 @@ impl<'a> Picture<'a> {
         let scenes = self
             .scenes
             .iter()
-            .map(|scene| Ok(process.load(scene)??))
+            .map(|scene| Ok(process.load(scene)?))
             .collect::<Result<Vec<u32>, JobError>>()?;
         self.judge_in(&mut process, &scenes, anomalies)
     }
@@ -126,7 +122,7 @@ impl<'a> Picture<'a> {
                 switches: self.switches,
                 ..RenderJob::new(scene, self.settings, [SIZE.0, SIZE.1], seeds.to_vec(), demand.samples)
             };
-            let rendered = process.render(&job)??;
+            let rendered = process.render(&job)?;
             anomalies.non_finite += rendered.non_finite;
             anomalies.negative += rendered.negative;
             anomalies.first.extend(rendered.first_anomalies);

@@ -21,8 +21,9 @@ mod stability;
 mod test_scenes;
 mod white_furnace;
 
-pub use check::{Check, JobError, Observation, Outcome, Quantity, WrongPlace};
+pub use check::{Check, Observation, Outcome, Quantity, WrongPlace};
 pub use context::{GradeContext, SceneWithReference, give_up, skip};
+pub use harness::job::JobError;
 pub use mean_bias::expected as expected_by_reference;
 
 use verdict::check::CheckKind;

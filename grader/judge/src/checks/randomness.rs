@@ -79,10 +79,10 @@ fn render(
     samples: &mut u64,
 ) -> Result<Vec<Vec<[f32; 3]>>, JobError> {
     let mut process = context.start()?;
-    let scene = process.load(&context.scene(spec).description)??;
+    let scene = process.load(&context.scene(spec).description)?;
     *samples += seeds.len() as u64 * SAMPLES * u64::from(SIZE.0 * SIZE.1);
     let job = RenderJob::new(scene, settings_of(spec), [SIZE.0, SIZE.1], seeds.to_vec(), SAMPLES);
-    Ok(process.render(&job)??.batches)
+    Ok(process.render(&job)?.batches)
 }
 
 /// Two images that are the same, bit by bit. Images without any noise are the same rightly: black ones, say.

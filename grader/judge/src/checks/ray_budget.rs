@@ -58,7 +58,7 @@ impl Check for RayBudget {
             let settings = Settings { technique: spec.technique, max_bounces };
             let job = ProbeJob { settings, scenes: vec![scripted], samples: PATHS, seed, stratified: false };
             samples += PATHS;
-            Ok(process.probe(&job)??.into_iter().flatten().collect())
+            Ok(process.probe(&job)?.into_iter().flatten().collect())
         };
         let mut excess = None;
         for bounces in 1..=spec.max_bounces {

@@ -42,7 +42,7 @@ impl Check for WhiteFurnace {
         let noise = mean_bias::expected(spec, &scene.reference)?;
         let scenes = [&scene.description];
         let mut process = context.start()?;
-        let loaded = [process.load(&scene.description)??];
+        let loaded = [process.load(&scene.description)?];
         let (mut anomalies, mut judgements) = (Anomalies::default(), Vec::new());
         for &order in &orders {
             let expected = Expected {

@@ -11,6 +11,7 @@ use crate::image_error::{Truth, relative_mse, relative_weight};
 use crate::pictures::{Shown, half_size};
 use crate::reference::SIZE;
 use harness::host_process::HostProcess;
+use harness::job::apart;
 use harness::workspace::Workspace;
 use verdict::error::Result;
 
@@ -57,7 +58,7 @@ fn of_panel(
         let Some(contestant) = contestants.iter().find(is_its) else { continue };
         let Some(samples) = samples(curve, width * height) else { continue };
         let mut process = HostProcess::start(contestant.program, convergence.threads)?;
-        let Ok(scene) = process.load(&description)? else { continue };
+        let Ok(scene) = apart(process.load(&description))? else { continue };
         let job = RenderJob::new(
             scene,
             Settings { technique: curve.technique, max_bounces: *max_bounces },
@@ -65,7 +66,7 @@ fn of_panel(
             vec![batch_seed(convergence.seed, 0)],
             samples,
         );
-        let Ok(answer) = process.render(&job)? else { continue };
+        let Ok(answer) = apart(process.render(&job))? else { continue };
         if let Some(picture) = answer.batches.into_iter().next() {
             rendered.push((curve, samples, picture.iter().map(|pixel| pixel.map(f64::from)).collect()));
         }

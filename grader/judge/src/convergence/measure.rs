@@ -13,6 +13,7 @@ use crate::image_error::{Truth, relative_weight};
 use crate::reference::{self, ReferenceView};
 use harness::build::HandInProgram;
 use harness::host_process::HostProcess;
+use harness::job::apart;
 use harness::workspace::Workspace;
 use verdict::convergence::{Convergence, Curve, LeftOut, Panel, Role};
 use verdict::error::{Error, Result};
@@ -120,7 +121,7 @@ fn race(
     let mut processes = Vec::new();
     for contestant in contestants {
         let mut process = HostProcess::start(contestant.program, options.threads)?;
-        let loaded = process.load(&scene.description)?;
+        let loaded = apart(process.load(&scene.description))?;
         processes.push((process, loaded));
     }
     let mut racers = Vec::new();

@@ -6,7 +6,9 @@ use host::protocol::RenderJob;
 
 use super::estimate::Renders;
 use crate::reference::SIZE;
-use harness::host_process::{Fault, HostProcess};
+use harness::host_process::HostProcess;
+use harness::job::apart;
+use verdict::check::Fault;
 use verdict::error::Result;
 
 /// One curve while it is measured.
@@ -108,7 +110,7 @@ impl Racer {
             return Ok(None);
         }
         let job = RenderJob::new(0, self.settings, [SIZE.0, SIZE.1], seeds.to_vec(), samples);
-        match process.render(&job)? {
+        match apart(process.render(&job))? {
             Ok(rendered) => {
                 self.non_finite += rendered.non_finite;
                 let pixels =

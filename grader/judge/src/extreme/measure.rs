@@ -5,8 +5,8 @@ use arty::sampler::batch_seed;
 use host::protocol::{AnomalousSample, RenderJob};
 
 use super::answers::{Answer, Extreme};
-use harness::host_process::{Fault, HostProcess};
-use verdict::error::Result;
+use harness::host_process::HostProcess;
+use harness::job::JobError;
 
 /// Independent renderings.
 const BATCHES: u64 = 32;
@@ -69,20 +69,17 @@ pub fn measure(
     size: [u32; 2],
     Effort(paths): Effort,
     seed: u64,
-) -> Result<std::result::Result<Measured, Fault>> {
+) -> Result<Measured, JobError> {
     let pixels = u64::from(size[0]) * u64::from(size[1]);
     let samples = paths.div_ceil(pixels * BATCHES);
     let seeds = (0..BATCHES).map(|batch| batch_seed(seed, batch)).collect();
-    let rendered = match process.render(&RenderJob::new(scene, settings, size, seeds, samples))? {
-        Ok(rendered) => rendered,
-        Err(fault) => return Ok(Err(fault)),
-    };
+    let rendered = process.render(&RenderJob::new(scene, settings, size, seeds, samples))?;
     let mean_of = |batch: &Vec<[f32; 3]>| {
         batch.iter().flatten().map(|&value| f64::from(value)).sum::<f64>() / (3 * batch.len()) as f64
     };
     let means: Vec<f64> = rendered.batches.iter().map(mean_of).collect();
     let (mean, standard_error) = mean_and_error(&means);
-    Ok(Ok(Measured {
+    Ok(Measured {
         mean,
         standard_error,
         non_finite: rendered.non_finite,
@@ -90,7 +87,7 @@ pub fn measure(
         first: rendered.first_anomalies.into_iter().next(),
         paths: pixels * samples * BATCHES,
         seconds: rendered.cpu_seconds,
-    }))
+    })
 }
 
 /// Mean and standard error of some numbers.
@@ -144,21 +141,15 @@ pub fn findings(
     effort: Effort,
     seed: u64,
     mut wanted: impl FnMut(&Answer) -> bool,
-) -> Result<std::result::Result<Vec<Finding>, Fault>> {
+) -> Result<Vec<Finding>, JobError> {
     let mut findings: Vec<Finding> = Vec::new();
     for Extreme { answer, description } in extremes {
         if answer.left_out.contains_key(&technique) || !wanted(answer) {
             continue;
         }
         let settings = Settings { technique, max_bounces: answer.max_bounces };
-        let scene = match process.load(description)? {
-            Ok(scene) => scene,
-            Err(fault) => return Ok(Err(fault)),
-        };
-        let measured = match measure(process, scene, settings, answer.size, effort, seed)? {
-            Ok(measured) => measured,
-            Err(fault) => return Ok(Err(fault)),
-        };
+        let scene = process.load(description)?;
+        let measured = measure(process, scene, settings, answer.size, effort, seed)?;
         let compared = |name: &String| findings.iter().find(|finding| finding.scene == *name);
         let other = answer.same_as.as_ref().and_then(compared).map(|finding| finding.measured.mean);
         let truth = answer.radiance.or(other).unwrap_or(measured.mean);
@@ -174,7 +165,7 @@ pub fn findings(
             judged: answer.judged,
         });
     }
-    Ok(Ok(findings))
+    Ok(findings)
 }
 
 #[cfg(test)]

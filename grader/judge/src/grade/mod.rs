@@ -94,7 +94,7 @@ impl Grader {
             || load_scenes(workspace, &selected),
             || {
                 let framework = Framework::build(workspace)?;
-                trial::require_on_this_machine(&framework, &options.limits)?;
+                trial::require_that_hand_ins_work(&framework, &options.limits)?;
                 Ok::<_, verdict::error::Error>(framework)
             },
         );

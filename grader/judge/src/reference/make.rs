@@ -132,7 +132,7 @@ impl Renderer {
     fn start(program: &HandInProgram, description: &SceneDescription, threads: usize) -> Result<Self> {
         let mut process = HostProcess::start(program, threads)?;
         let scene =
-            process.load(description)?.map_err(|fault| Error::Harness(format!("the solution: {fault}")))?;
+            process.load(description).map_err(|error| error.of_trusted("the solution"))?;
         Ok(Self { process, scene, switches: Switches::default() })
     }
 
@@ -156,8 +156,8 @@ impl Renderer {
             };
             let rendered = self
                 .process
-                .render(&job)?
-                .map_err(|fault| Error::Harness(format!("the solution: {fault}")))?;
+                .render(&job)
+                .map_err(|error| error.of_trusted("the solution"))?;
             if rendered.non_finite + rendered.negative > 0 {
                 let what = format!("{:?}", rendered.first_anomalies.first());
                 return Err(Error::Harness(format!(

@@ -82,7 +82,9 @@ impl Oracle {
         let (limits, file) = (Limits::default(), self.folder.join(format!("{}.program", self.hash)));
         let earlier = read(&file).and_then(|executable| HandInProgram::again(&executable, &limits).ok());
         // It may have come here with a cache, from a machine with another C library.
-        let compiled = match earlier.filter(|program| HostProcess::start(program, 1).is_ok()) {
+        let compiled = match earlier
+            .filter(|program| HostProcess::start(program, 1).is_ok_and(|process| process.fault().is_none()))
+        {
             Some(program) => program,
             None => {
                 let Submission { path, source } = &self.submission;

@@ -15,7 +15,7 @@ use host::protocol::{Call, ReplayJob, Switches};
 use verdict::replay::{Named, Path, ReplayTarget, Step};
 use verdict::rubric::EmissionOnHit;
 
-use crate::checks::JobError;
+use harness::job::JobError;
 
 pub use place::load;
 pub use vertices::vertices;
@@ -30,12 +30,12 @@ pub fn follow(
     description: &SceneDescription,
 ) -> Result<Path, JobError> {
     let mut process = HostProcess::start(program, 1)?;
-    let scene = process.load(description)??;
+    let scene = process.load(description)?;
     let ReplayTarget { technique, max_bounces, size, seed, pixel, sample, emission_on_hit, .. } = *target;
     let settings = Settings { technique, max_bounces };
     let switches = Switches { emission_on_hit: emission_on_hit == EmissionOnHit::On };
     let job = ReplayJob { scene, settings, size, seed, pixel, sample, switches };
-    let replayed = process.replay(job)??;
+    let replayed = process.replay(job)?;
     Ok(Path {
         radiance: replayed.radiance,
         calls: replayed.calls.into_iter().map(|call| step(call, description)).collect(),

@@ -22,6 +22,20 @@ pub enum Fault {
     Malformed(String),
 }
 
+impl std::fmt::Display for Fault {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Panic(message) => write!(f, "it panicked: {message}"),
+            Self::Timeout(seconds) => write!(f, "it did not finish within {seconds:.0} s"),
+            Self::TooSlow(seconds) => {
+                write!(f, "it did not finish the first eighth of a job within {seconds:.0} s")
+            }
+            Self::Crash(status) => write!(f, "its process ended early ({status})"),
+            Self::Malformed(what) => write!(f, "its answer was not what was asked for ({what})"),
+        }
+    }
+}
+
 /// Samples that are not radiance.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Numerics {

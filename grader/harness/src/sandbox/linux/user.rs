@@ -1,6 +1,6 @@
 //! The other user that hand-ins run as when the grader is root.
 
-use std::os::unix::fs::{MetadataExt, chown};
+use std::os::unix::fs::MetadataExt;
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -13,10 +13,31 @@ use rustix::thread::{
 };
 
 use super::super::Grants;
-use verdict::error::{Error, Result};
 
-/// `nobody`, on every Linux.
-const NOBODY: u32 = 65534;
+/// How many ids there are for hand-ins: as many can be compiled or run at a time, on the whole machine.
+pub(super) const IDS: u32 = 1024;
+
+/// Where they may begin. Nobody gives away the first ones; a container that knows of few ids has the others.
+const FIRST_IDS: [u32; 2] = [0x7a00_0000, 64_000];
+
+/// The first id for hand-ins on this machine. A group has the same number as its user.
+pub(super) fn first_id() -> u32 {
+    static FIRST: OnceLock<u32> = OnceLock::new();
+    *FIRST.get_or_init(|| {
+        let maps = ["uid_map", "gid_map"].map(|map| std::fs::read_to_string(format!("/proc/self/{map}")));
+        let known = |first: u32| maps.iter().all(|map| map.as_ref().is_ok_and(|map| has_ids(map, first)));
+        FIRST_IDS.into_iter().find(|&first| known(first)).unwrap_or(FIRST_IDS[1])
+    })
+}
+
+/// Whether one line of a map of ids (first inside, first outside, how many) has all those for hand-ins.
+fn has_ids(map: &str, first: u32) -> bool {
+    map.lines().any(|line| {
+        let numbers: Vec<u64> = line.split_whitespace().filter_map(|number| number.parse().ok()).collect();
+        let [inside, _, count] = numbers[..] else { return false };
+        inside <= u64::from(first) && u64::from(first + IDS) <= inside + count
+    })
+}
 
 /// Who hand-ins run as.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -50,7 +71,7 @@ impl User {
         if self != Self::Other {
             return self;
         }
-        match switch_user(Switch::default()) {
+        match switch_user(Switch { id: first_id(), reads_all: None }) {
             Ok(()) if !geteuid().is_root() => Self::Other,
             Ok(()) => Self::Root("the user id cannot be changed here".to_owned()),
             Err(error) => Self::Root(format!("the user id cannot be changed here ({error})")),
@@ -59,15 +80,17 @@ impl User {
 }
 
 /// How to become the other user.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Switch {
+    /// The id of the user, and of its group.
+    pub(super) id: u32,
     /// The right of root's to read all files, if it is to be kept.
     pub(super) reads_all: Option<CapabilitySet>,
 }
 
 /// Makes the calling thread the other user's, for good. It allocates nothing.
 pub(super) fn switch_user(switch: Switch) -> std::io::Result<()> {
-    let (user, group) = (Uid::from_raw(NOBODY), Gid::from_raw(NOBODY));
+    let (user, group) = (Uid::from_raw(switch.id), Gid::from_raw(switch.id));
     if switch.reads_all.is_some() {
         // Rights outlive the change, and count for `access`, too, by which gcc looks for its parts.
         set_capabilities_secure_bits(CapabilitiesSecureBits::NO_SETUID_FIXUP)?;
@@ -87,28 +110,12 @@ pub(super) fn right_to_read_all() -> Option<CapabilitySet> {
     static RIGHT: OnceLock<Option<CapabilitySet>> = OnceLock::new();
     // A container's root has often only the second, which is more than is needed, and less than to stay root.
     let works = |right: &CapabilitySet| {
-        let switch = Switch { reads_all: Some(*right) };
+        let switch = Switch { id: first_id(), reads_all: Some(*right) };
         // In a thread of its own, which ends with what it has become.
         matches!(std::thread::spawn(move || switch_user(switch)).join(), Ok(Ok(())))
     };
     *RIGHT
         .get_or_init(|| [CapabilitySet::DAC_READ_SEARCH, CapabilitySet::DAC_OVERRIDE].into_iter().find(works))
-}
-
-/// Gives a folder and its files to the user that hand-ins run as.
-///
-/// # Errors
-/// Whatever the file system says.
-pub(crate) fn hand_over(folder: &Path) -> Result<()> {
-    if super::Machine::here().user != User::Other {
-        return Ok(());
-    }
-    let trouble = |error| Error::Harness(format!("{}: {error}", folder.display()));
-    for entry in std::fs::read_dir(folder).map_err(trouble)? {
-        let file = entry.map_err(trouble)?.path();
-        chown(file, Some(NOBODY), Some(NOBODY)).map_err(trouble)?;
-    }
-    chown(folder, Some(NOBODY), Some(NOBODY)).map_err(trouble)
 }
 
 /// Whether any user can read these files, as far as their modes tell.
@@ -121,4 +128,19 @@ pub(super) fn anyone_reads(grants: &Grants) -> bool {
 /// Whether the mode of a file gives others these rights.
 fn anyone_may(path: &Path, rights: u32) -> bool {
     std::fs::metadata(path).is_ok_and(|metadata| metadata.mode() & rights == rights)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ids_are_those_that_the_kernel_knows() {
+        let [high, low] = FIRST_IDS;
+        let everything = "         0          0 4294967295\n";
+        assert!(has_ids(everything, high) && has_ids(everything, low));
+        let container = "         0     100000      65536\n";
+        assert!(!has_ids(container, high) && has_ids(container, low));
+        assert!(!has_ids("0 1000 1\n", low) && !has_ids("", low));
+    }
 }

@@ -145,7 +145,7 @@ fn read_all(process: &mut HostProcess, spec: &CheckSpec, seed: u64) -> Result<(W
         let mut samples_all_lights = true;
         for (vertices, configuration) in &configurations {
             let scenes = vec![configuration.light_side.clone(), configuration.bsdf_side.clone()];
-            let paths = ask(scenes)??;
+            let paths = ask(scenes)?;
             if *vertices == 1 && configuration.lights == MANY_LIGHTS {
                 samples_all_lights &= paths[0].iter().all(|path| path.light_samples as usize >= MANY_LIGHTS);
             }

@@ -8,7 +8,7 @@ use host::protocol::{ProbeJob, ScriptedBsdf, ScriptedLight, ScriptedScene};
 use verdict::check::{OnlyWay, OnlyWayWeight};
 
 use super::{NOISE, TOLERATED, mean_and_error};
-use crate::checks::JobError;
+use harness::job::JobError;
 use crate::scenes;
 
 /// The weights of these lights.
@@ -33,7 +33,7 @@ pub(super) fn look(
             OnlyWay::AfterDelta => after_delta(),
             OnlyWay::PointLight => point_light(),
         }];
-        let paths = process.probe(&ProbeJob { settings, scenes, samples, seed, stratified: false })??;
+        let paths = process.probe(&ProbeJob { settings, scenes, samples, seed, stratified: false })?;
         let read = mean_and_error(&paths[0]);
         let is_right = read.is_some_and(|(mean, error)| (mean - 1.0).abs() <= TOLERATED + NOISE * error);
         if !is_right {

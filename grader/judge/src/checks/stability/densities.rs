@@ -66,7 +66,7 @@ pub(super) fn find(asked: &Asked<'_>, process: &mut HostProcess) -> Found {
                 seed: asked.seed,
                 stratified: false,
             };
-            let paths = process.probe(&job)??;
+            let paths = process.probe(&job)?;
             pairs.push(Pair { light, bsdf, outcome: judge(&configuration, light, bsdf, &paths) });
         }
     }

@@ -12,7 +12,7 @@ use verdict::check::{Deviation, NumericalCause, Place, StabilityFinding};
 use verdict::replay::ReplayTarget;
 
 use super::{Asked, Found, cause_of};
-use crate::checks::JobError;
+use harness::job::JobError;
 use crate::extreme::measure::mean_and_error;
 use crate::scenes::{changed, room};
 
@@ -63,9 +63,9 @@ fn render(
     (larger, brighter): (i32, i32),
 ) -> Result<Rendered, JobError> {
     let scene = changed(&room(), f64::from(larger).exp2(), DVec3::ZERO, (brighter as f32).exp2());
-    let scene = process.load(&scene)??;
+    let scene = process.load(&scene)?;
     let seeds = (0..BATCHES).map(|batch| batch_seed(asked.seed, batch)).collect();
-    Ok(process.render(&RenderJob::new(scene, asked.settings, SIZE, seeds, 1))??)
+    Ok(process.render(&RenderJob::new(scene, asked.settings, SIZE, seeds, 1))?)
 }
 
 /// A region with the relative difference of its mean.

@@ -6,7 +6,7 @@ use host::protocol::{AnomalousSample, RenderJob};
 use verdict::check::{Deviation, NumericalCause, Place, StabilityFinding};
 
 use super::{Asked, Found, cause_of};
-use crate::checks::JobError;
+use harness::job::JobError;
 use crate::extreme::answers;
 use crate::extreme::measure::{self, Effort, findings};
 
@@ -23,12 +23,12 @@ const MOST_BOUNCES: u32 = 400;
 const ALLOWED: f64 = 3e-3;
 
 pub(super) fn find(asked: &Asked<'_>, process: &mut HostProcess) -> Found {
-    let extremes = answers::load(asked.bench.workspace)?;
+    let extremes = answers::load(asked.context.workspace)?;
     let technique = asked.settings.technique;
     let wanted = |answer: &answers::Answer| {
         answer.size[0] * answer.size[1] <= MOST_PIXELS && answer.max_bounces <= MOST_BOUNCES
     };
-    let seen = findings(process, &extremes, technique, EFFORT, asked.seed, wanted)??;
+    let seen = findings(process, &extremes, technique, EFFORT, asked.seed, wanted)?;
     let mut found = Vec::new();
     let mut paths = 0;
     for mut picture in seen {
@@ -58,11 +58,11 @@ fn first_black(
     if picture.measured.mean >= picture.truth {
         return Ok(None);
     }
-    let scene = process.load(&extreme.description)??;
+    let scene = process.load(&extreme.description)?;
     let width = picture.size[0];
     let seeds: Vec<u64> = (0..64).map(|batch| batch_seed(asked.seed, batch)).collect();
     let job = RenderJob::new(scene, picture.settings, picture.size, seeds.clone(), 1);
-    let rendered = process.render(&job)??;
+    let rendered = process.render(&job)?;
     let mut all = rendered
         .batches
         .iter()

@@ -1,0 +1,168 @@
+//! How long an answer can be, and of how many parts.
+
+use std::io::{self, Read};
+
+use host::protocol::{MAX_MESSAGE, Request, Response, decode, read_bytes};
+
+/// What the answer to one request can be at most. Longer ones are not read, and those of more parts not taken apart: a
+/// byte of an answer can be many in memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Expected {
+    bytes: u32,
+    /// The kind of answer that has parts, as the first byte says it, and their number.
+    parts: Option<(u8, u64)>,
+}
+
+/// Bytes of an answer without numbers: at most the message of a panic.
+const WORDS: u64 = 16 << 10;
+
+/// Bytes of one mean: three numbers.
+const MEAN: u64 = 12;
+
+/// Bytes of one path at most: three numbers, and four that take up to five bytes.
+const PATH: u64 = 12 + 4 * 5;
+
+/// Bytes of one call that is written down, at most, and how many there are.
+const CALL: u64 = 1 << 10;
+const CALLS: u64 = 10_000;
+
+/// Bytes of a length.
+const LENGTH: u64 = 10;
+
+/// The first byte of an answer says which one it is.
+const RENDERED: u8 = 2;
+const PROBED: u8 = 3;
+
+impl Expected {
+    /// That a process is there.
+    pub(super) fn start() -> Self {
+        Self::of(0, None)
+    }
+
+    /// The answer to a request.
+    pub(super) fn answer_to(request: &Request<'_>) -> Self {
+        match request {
+            Request::Scene(_) => Self::of(0, None),
+            Request::Render(job) => {
+                let pixels = u64::from(job.width) * u64::from(job.height);
+                let batches = job.seeds.len() as u64;
+                let bytes = pixels.saturating_mul(MEAN).saturating_add(LENGTH).saturating_mul(batches);
+                Self::of(bytes, Some((RENDERED, batches)))
+            }
+            Request::Probe(job) => {
+                let scenes = job.scenes.len() as u64;
+                let bytes = job.samples.saturating_mul(PATH).saturating_add(LENGTH).saturating_mul(scenes);
+                Self::of(bytes, Some((PROBED, scenes)))
+            }
+            Request::Replay(_) => Self::of(CALL * CALLS, None),
+        }
+    }
+
+    fn of(bytes: u64, parts: Option<(u8, u64)>) -> Self {
+        let bytes = u32::try_from(bytes.saturating_add(WORDS)).unwrap_or(u32::MAX).min(MAX_MESSAGE);
+        Self { bytes, parts }
+    }
+
+    /// Reads the answer; `None` at the end of the stream.
+    pub(super) fn read(self, reader: &mut impl Read) -> io::Result<Option<Response>> {
+        let Some(bytes) = read_bytes(reader, self.bytes)? else { return Ok(None) };
+        let kind = bytes.first().copied();
+        let counted = self.parts.filter(|(expected, _)| kind == Some(*expected));
+        let right = match counted {
+            Some((_, parts)) => length(&bytes[1..]) == Some(parts),
+            // Those with parts that nobody asked for.
+            None => !matches!(kind, Some(RENDERED | PROBED)),
+        };
+        if !right {
+            return Err(io::Error::new(io::ErrorKind::InvalidData, "the number of its parts is wrong"));
+        }
+        decode(&bytes).map(Some)
+    }
+}
+
+/// A length, as postcard writes it: seven bits a byte, the lowest first.
+fn length(bytes: &[u8]) -> Option<u64> {
+    let mut value = 0;
+    for (place, byte) in bytes.iter().take(9).enumerate() {
+        value |= u64::from(byte & 0x7f) << (7 * place);
+        if byte & 0x80 == 0 {
+            return Some(value);
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use std::borrow::Cow;
+
+    use arty::integrator::{Settings, Technique};
+    use host::protocol::{ProbeJob, ProbedPath, RenderJob, Rendered, Switches, write_message};
+
+    use super::*;
+
+    fn job(batches: u64) -> RenderJob {
+        RenderJob {
+            scene: 0,
+            settings: Settings { technique: Technique::Nee, max_bounces: 1 },
+            width: 20,
+            height: 10,
+            seeds: (0..batches).collect(),
+            first_sample: 0,
+            samples: 1,
+            switches: Switches::default(),
+        }
+    }
+
+    fn rendered(batches: Vec<Vec<[f32; 3]>>) -> Response {
+        let first_anomalies = Vec::new();
+        Response::Rendered(Rendered {
+            batches,
+            non_finite: 0,
+            negative: 0,
+            first_anomalies,
+            cpu_seconds: 0.0,
+        })
+    }
+
+    fn read(expected: Expected, response: &Response) -> io::Result<Option<Response>> {
+        let mut pipe = Vec::new();
+        write_message(&mut pipe, response)?;
+        expected.read(&mut pipe.as_slice())
+    }
+
+    #[test]
+    fn the_longest_true_answers_are_read() {
+        for batches in [1, 3, 200] {
+            let expected = Expected::answer_to(&Request::Render(Cow::Owned(job(batches))));
+            let response = rendered(vec![vec![[1.0; 3]; 200]; batches as usize]);
+            assert_eq!(read(expected, &response).expect("it is read"), Some(response));
+        }
+        let probe = ProbeJob {
+            settings: job(1).settings,
+            scenes: Vec::new(),
+            samples: 10_000,
+            seed: 1,
+            stratified: false,
+        };
+        let expected = Expected::answer_to(&Request::Probe(Cow::Owned(probe)));
+        assert_eq!(
+            read(expected, &Response::Probed(Vec::new())).expect("it is read"),
+            Some(Response::Probed(Vec::new()))
+        );
+        let words = Response::Panicked { message: "\u{10000}".repeat(3000) };
+        assert_eq!(read(Expected::start(), &words).expect("it is read"), Some(words));
+    }
+
+    #[test]
+    fn answers_that_grow_in_memory_are_not_taken_apart() {
+        let expected = Expected::answer_to(&Request::Render(Cow::Owned(job(3))));
+        let error = |response: &Response| read(expected, response).expect_err("it is refused").to_string();
+        assert!(error(&rendered(vec![Vec::new(); 9000])).contains("parts"));
+        assert!(error(&Response::Probed(vec![Vec::new(); 9000])).contains("parts"));
+        assert!(error(&rendered(vec![vec![[0.0; 3]; 4000]; 3])).contains("bytes"));
+        let path =
+            ProbedPath { radiance: [0.0; 3], rays: 0, shadow_rays: 0, light_samples: 0, bsdf_samples: 0 };
+        assert!(read(Expected::start(), &Response::Probed(vec![vec![path]])).is_err());
+    }
+}
