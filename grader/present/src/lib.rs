@@ -1,7 +1,7 @@
 //! What people and other systems see: terminal, pages, plots and exports, all made from a
 //! [`Report`](verdict::report::Report).
 //!
-//! Nothing here changes a verdict or a point. Names, panic messages and paths may hold anything; what is special in a
+//! Nothing here changes a verdict or a point, and nothing outside of [`words`] makes sentences about one. Names, panic messages and paths may hold anything; what is special in a
 //! format is escaped by that format.
 
 pub mod convergence;
@@ -12,6 +12,7 @@ mod profile;
 mod progress;
 pub mod replay;
 mod terminal;
+pub mod words;
 
 pub use profile::print_profile;
 pub use progress::Progress;

@@ -9,17 +9,17 @@ use verdict::report::Report;
 
 /// Prints the time of each part of a grade, and of each check, the longest first.
 pub fn print_profile(report: &Report) {
-    // Nobody may be reading any more.
+    // The reader may be gone (`… | head`).
     let _ = writeln!(io::stdout().lock(), "\n{}", text(report));
 }
 
 fn text(report: &Report) -> String {
     let cost = &report.cost;
     let parts = [
-        ("framework, scenes and references made ready", cost.framework),
-        ("hand-in compiled", cost.build),
-        ("checks run", cost.run),
-        ("all, from start to points", cost.total),
+        ("preparing the framework, scenes and references", cost.framework),
+        ("compiling the submission", cost.build),
+        ("running the checks", cost.run),
+        ("total", cost.total),
     ];
     let mut table = new_table(["part", "s"]);
     for (part, seconds) in parts {
@@ -27,11 +27,11 @@ fn text(report: &Report) -> String {
     }
     let mut checks: Vec<_> = report.checks.iter().collect();
     checks.sort_by(|a, b| b.seconds.total_cmp(&a.seconds));
-    let mut of_checks = new_table(["check (several run side by side)", "s", "samples", "samples/s"]);
+    let mut of_checks = new_table(["check (several run in parallel)", "s", "samples", "samples/s"]);
     for check in checks {
         let rate = check.samples as f64 / check.seconds;
         of_checks.add_row([
-            Cell::new(&check.id),
+            Cell::new(check.id.to_string()),
             number(format!("{:.3}", check.seconds)),
             number(check.samples.to_string()),
             number(if rate.is_finite() { format!("{rate:.1e}") } else { String::new() }),
@@ -54,13 +54,14 @@ fn number(text: String) -> Cell {
 #[cfg(test)]
 mod tests {
     use super::text;
-    use verdict::sample::report;
+    use verdict::check::{CheckKind, CheckResult};
+    use verdict::sample::{id, report};
 
     #[test]
     fn the_longest_check_stands_first() {
         let mut report = report("quick");
-        let slow = verdict::report::CheckResult {
-            id: "slow".to_owned(),
+        let slow = CheckResult {
+            id: id(CheckKind::MeanBias, "slow"),
             seconds: 4.0,
             samples: 8,
             ..report.checks[0].clone()
@@ -68,6 +69,6 @@ mod tests {
         report.checks.push(slow);
         let text = text(&report);
         let place = |name| text.find(name).unwrap_or_else(|| panic!("{name} in {text}"));
-        assert!(place("slow") < place("quick") && text.contains("2.0e0"), "{text}");
+        assert!(place("/slow/") < place("/quick/") && text.contains("2.0e0"), "{text}");
     }
 }

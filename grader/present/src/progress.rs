@@ -1,12 +1,14 @@
 //! What a person sees while the checks of a grade run. All of it goes to standard error.
 
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::terminal::{one_line, paint, word};
-use verdict::report::{CheckResult, Verdict};
+use verdict::check::{CheckResult, Verdict};
+
+use crate::terminal::{loud, one_line, paint};
+use crate::words::explanation;
 
 /// A bar with what fails above it on a terminal; a line for each check elsewhere.
 pub struct Progress {
@@ -38,8 +40,8 @@ impl Progress {
     /// A sentence that stays.
     pub fn say(&self, text: &str) {
         match self.kind {
-            Kind::Terminal => self.bar.suspend(|| eprintln!("{text}")),
-            Kind::Lines => eprintln!("{text}"),
+            Kind::Terminal => self.bar.suspend(|| write_line(text)),
+            Kind::Lines => write_line(text),
             Kind::Hidden => {}
         }
     }
@@ -52,7 +54,7 @@ impl Progress {
         }
     }
 
-    /// So many checks will be run, after the hand-in is compiled.
+    /// So many checks will be run, after the submission is compiled.
     pub fn expect(&mut self, checks: usize) {
         if self.kind == Kind::Terminal {
             self.bar.finish_and_clear();
@@ -68,22 +70,17 @@ impl Progress {
     pub fn ended(&mut self, check: &CheckResult) {
         self.done += 1;
         self.passed += usize::from(check.verdict == Verdict::Pass);
-        let line = || format!("{:>12}  {}  {}", word(check.verdict), check.id, check.explanation);
+        let line = || format!("{:>12}  {}  {}", loud(&check.verdict), check.id, explanation(check));
         match self.kind {
             Kind::Terminal => {
                 if check.verdict != Verdict::Pass {
-                    let line = paint(check.verdict, &one_line(&line()));
-                    self.bar.suspend(|| {
-                        drop(std::io::Write::write_all(
-                            &mut anstream::stderr(),
-                            format!("{line}\n").as_bytes(),
-                        ))
-                    });
+                    let line = paint(&check.verdict, &one_line(&line()));
+                    self.bar.suspend(|| write_line(&line));
                 }
                 self.bar.set_message(format!("{} passed", self.passed));
                 self.bar.inc(1);
             }
-            Kind::Lines => eprintln!("{}", line()),
+            Kind::Lines => write_line(&line()),
             Kind::Hidden => {}
         }
     }
@@ -92,6 +89,11 @@ impl Progress {
     pub fn finish(&self) {
         self.bar.finish_and_clear();
     }
+}
+
+/// Writes a line, whether or not anybody reads it.
+fn write_line(text: &str) {
+    let _ = writeln!(anstream::stderr(), "{text}");
 }
 
 impl Default for Progress {

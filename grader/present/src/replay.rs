@@ -7,10 +7,12 @@ use comfy_table::{ContentArrangement, Table};
 
 use verdict::replay::{Named, Path, Vertex};
 
+use crate::words::count;
+
 /// Writes a path, call by call, and its vertices where they are known.
 ///
 /// # Errors
-/// If nobody reads any more.
+/// If it cannot be written.
 pub fn print(out: &mut impl Write, title: &str, path: &Path, vertices: Option<&[Vertex]>) -> io::Result<()> {
     writeln!(out, "{title}: radiance {}", written(&path.radiance))?;
     let mut table = new_table(&["", "call", "given", "got"]);
@@ -20,7 +22,11 @@ pub fn print(out: &mut impl Write, title: &str, path: &Path, vertices: Option<&[
     }
     writeln!(out, "{table}")?;
     if path.left_out > 0 {
-        writeln!(out, "… and {} more calls", path.left_out)?;
+        writeln!(
+            out,
+            "… and {} left out",
+            count(usize::try_from(path.left_out).unwrap_or(usize::MAX), "call")
+        )?;
     }
     let Some(vertices) = vertices else { return Ok(()) };
     let mut table = new_table(&[
@@ -52,7 +58,7 @@ pub fn print(out: &mut impl Write, title: &str, path: &Path, vertices: Option<&[
             table.add_row(row("–", std::array::from_fn(|_| String::new())));
         }
     }
-    writeln!(out, "Its vertices (green; densities per solid angle; without roulette):\n{table}")
+    writeln!(out, "Vertices (green channel; densities per solid angle; without Russian roulette):\n{table}")
 }
 
 fn new_table(header: &[&str]) -> Table {

@@ -1,6 +1,6 @@
 //! The report on a terminal, and in plain text where there is none.
 //!
-//! Colours are written always; `anstream` takes them out where they are not wanted: in a pipe, with `NO_COLOR`, on a
+//! Colours are always written; `anstream` removes them where they are not wanted: in a pipe, with `NO_COLOR`, on a
 //! terminal that has none. Only on a terminal lines are broken, at its width: elsewhere one finding is one line.
 
 use std::io::{self, Write};
@@ -9,84 +9,87 @@ use anstyle::{AnsiColor, Style};
 use comfy_table::presets::NOTHING;
 use comfy_table::{Attribute, Cell, CellAlignment, Color, ContentArrangement, Table};
 
-use verdict::text::harmless;
-
-use verdict::report::{CheckResult, Report, TaskResult, Verdict};
+use verdict::check::{CheckId, CheckResult, Verdict};
+use verdict::report::{Report, TaskResult};
 use verdict::sandbox::Level;
 use verdict::submission::SourceFinding;
+use verdict::text::harmless;
+
+use crate::words::{self, count};
 
 /// The table of tasks, and what is wrong.
 pub fn print_summary(report: &Report) {
     let out = anstream::stdout();
     let width = out.is_terminal().then(textwrap::termwidth);
-    // Nobody may be reading any more (`… | head`): the report is saved all the same.
+    // The reader may be gone (`… | head`): the report is saved all the same.
     let _ = write_summary(&mut out.lock(), report, width);
 }
 
 /// The sum of points, in one line.
 pub fn print_sum(report: &Report) {
-    let _ = writeln!(io::stdout().lock(), "{}", sum(report));
+    let _ = writeln!(io::stdout().lock(), "{}", words::sum(report));
 }
 
-/// How many failed checks of a task are explained: with the first ones mended, the others often are.
+/// Failed checks of a task that are explained: once the first ones are fixed, the others often are.
 const EXPLAINED: usize = 3;
 
-/// How many remarks are shown.
+/// Remarks that are shown.
 const REMARKS: usize = 5;
 
 fn write_summary(out: &mut impl Write, report: &Report, width: Option<usize>) -> io::Result<()> {
     if let Some(failure) = &report.submission.build_failure {
         match &report.submission.refusal {
-            None => writeln!(out, "The hand-in does not compile:\n\n{}", failure.messages)?,
+            None => writeln!(out, "The submission does not compile:\n\n{}", failure.messages)?,
             Some(refusal) => writeln!(out, "{}: {}", refusal.code, failure.messages.trim_end())?,
         }
     }
     writeln!(out, "{}", table(report, width))?;
-    paragraph(out, "", &sum(report), width)?;
+    paragraph(out, "", &words::sum(report), width)?;
     write_causes(out, report, width)?;
     for explanation in &report.submission.explanations {
         let name = harmless(&explanation.name);
-        let bytes = explanation.bytes;
-        match &explanation.text {
+        let content = match &explanation.text {
             Some(text) => {
-                let words = text.split_whitespace().count();
-                paragraph(
-                    out,
-                    "",
-                    &format!("explanation: {name}, {words} words, shown in report.html"),
-                    width,
-                )?;
+                let words = count(text.split_whitespace().count(), "word");
+                format!("explanation: {name}, {words}, shown in report.html")
             }
             None => {
-                paragraph(out, "", &format!("explanation: {name}, {bytes} bytes: open it yourself"), width)?
+                format!("explanation: {name}, {}: open the file itself", count(explanation.bytes, "byte"))
             }
-        }
+        };
+        paragraph(out, "", &content, width)?;
     }
     for task in &report.tasks {
         write_failures(out, task, report, width)?;
     }
     write_remarks(out, report, width)?;
-    let apart = !report.sandbox.findings.is_empty() || report.sandbox.level < Level::Strong;
-    if apart {
+    write_sandbox(out, report, width)
+}
+
+/// What the source names that the sandbox refuses, and what the sandbox lacks.
+fn write_sandbox(out: &mut impl Write, report: &Report, width: Option<usize>) -> io::Result<()> {
+    let sandbox = &report.sandbox;
+    if !sandbox.findings.is_empty() || sandbox.level < Level::Strong {
         writeln!(out)?;
     }
-    for SourceFinding { line, what, why, .. } in &report.sandbox.findings {
+    for SourceFinding { line, what, why } in &sandbox.findings {
         let text = format!("violation: render_pt.rs:{line}: {what}: {why}; the sandbox refuses it");
         paragraph(out, "", &text, width)?;
     }
-    if report.sandbox.level < Level::Strong {
-        let (level, missing) = (report.sandbox.level, &report.sandbox.missing);
-        paragraph(out, "", &format!("sandbox: {level}: {missing} (cargo grader doctor)"), width)?;
+    if sandbox.level < Level::Strong {
+        let (level, missing) = (sandbox.level, words::missing_layers(sandbox));
+        paragraph(out, "", &format!("sandbox: {level}: {missing} (see cargo grader doctor)"), width)?;
     }
     Ok(())
 }
 
-/// What probably went wrong, with the observation that decided and something to think about.
+/// What is probably wrong, with the observation that decided and a hint.
 fn write_causes(out: &mut impl Write, report: &Report, width: Option<usize>) -> io::Result<()> {
-    for cause in &report.diagnosis {
+    for diagnosis in &report.diagnosis {
         writeln!(out)?;
-        paragraph(out, "", &bold(&cause.heading()), width)?;
-        for (begin, text) in [("seen: ", &cause.evidence), ("think: ", &cause.hint)] {
+        paragraph(out, "", &bold(&words::heading(diagnosis)), width)?;
+        let seen = words::seen(report, diagnosis);
+        for (begin, text) in [("seen: ", seen.as_str()), ("hint: ", words::hint(&diagnosis.cause))] {
             if !text.is_empty() {
                 paragraph(out, "  ", &format!("{begin}{text}"), width)?;
             }
@@ -104,15 +107,16 @@ fn table(report: &Report, width: Option<usize>) -> Table {
     let heads = ["task", "", "points", "passed", "what is missing"];
     table.set_header(heads.map(|head| Cell::new(head).add_attribute(Attribute::Bold)));
     for task in &report.tasks {
-        let run = |check: &&CheckResult| check.task == task.id && check.verdict != Verdict::LeftOut;
-        let checks = report.checks.iter().filter(run);
+        let counts =
+            |check: &&CheckResult| check.task == task.id && !matches!(check.verdict, Verdict::Skipped { .. });
+        let checks = report.checks.iter().filter(counts);
         let passed = checks.clone().filter(|check| check.verdict == Verdict::Pass).count();
         let (points, passed) = match task.points {
             None => (format!("– / {}", task.max), String::new()),
-            Some(points) => (format!("{} / {}", points, task.max), format!("{passed} of {}", checks.count())),
+            Some(points) => (format!("{points} / {}", task.max), format!("{passed} of {}", checks.count())),
         };
         let color = match task.points {
-            Some(points) if points + task.elsewhere >= task.max => Color::Green,
+            Some(points) if points + task.staff_only >= task.max => Color::Green,
             Some(points) if points > 0.0 => Color::Yellow,
             Some(_) => Color::Red,
             None => Color::Reset,
@@ -131,37 +135,20 @@ fn table(report: &Report, width: Option<usize>) -> Table {
 /// Why points are missing, short enough for a table: what follows it names the checks.
 fn missing(task: &TaskResult, report: &Report) -> String {
     let failed = report.lacking(&task.id).len();
-    let gated = task.points == Some(0.0) || failed == 0;
+    let state = words::task_state(task);
     let mut parts = Vec::new();
-    if gated && !task.reason.is_empty() {
-        parts.push(task.reason.clone());
+    if (task.points == Some(0.0) || failed == 0) && !state.is_empty() {
+        parts.push(state);
     } else if failed > 0 {
-        parts.push(format!("{failed} checks, see below"));
+        parts.push(format!("{} did not pass, see below", count(failed, "check")));
     }
-    if task.elsewhere > 0.0 {
-        parts.push(format!("{} points are decided by your tutors' checks", task.elsewhere));
+    if task.staff_only > 0.0 {
+        parts.push(format!("up to {} decided after submission", words::number_of_points(task.staff_only)));
     }
     parts.join("; ")
 }
 
-fn sum(report: &Report) -> String {
-    let points = &report.points;
-    let mut text = format!("{} of {} automatic points", points.earned, points.automatic_max);
-    if points.elsewhere > 0.0 {
-        text += &format!(
-            ": {} can be had here, {} rest on checks that only your tutors can run",
-            points.automatic_max - points.elsewhere,
-            points.elsewhere
-        );
-    }
-    let manual = match points.marked {
-        Some(marked) => format!("{marked} of {} given by a person", points.manual_max),
-        None => format!("{} more are marked by a person", points.manual_max),
-    };
-    format!("{text} ({manual}), {:.1} s", report.cost.total)
-}
-
-/// What is wrong in a task, and the command that shows it again.
+/// What is wrong in a task, and the command that runs it again.
 fn write_failures(
     out: &mut impl Write,
     task: &TaskResult,
@@ -172,33 +159,37 @@ fn write_failures(
     let Some(first) = failed.first() else { return Ok(()) };
     writeln!(out, "\n{}", bold(&format!("{} {}", task.id, task.title)))?;
     for check in failed.iter().take(EXPLAINED) {
-        let evidence = if check.evidence { " (no points without it)" } else { "" };
-        writeln!(out, "  {}  {}{evidence}", paint(check.verdict, word(check.verdict)), check.id)?;
-        paragraph(out, "    ", &check.explanation, width)?;
+        let required = if check.required { " (required)" } else { "" };
+        writeln!(out, "  {}  {}{required}", paint(&check.verdict, loud(&check.verdict)), check.id)?;
+        paragraph(out, "    ", &words::explanation(check), width)?;
     }
     if failed.len() > EXPLAINED {
-        writeln!(out, "  … and {} more: see report.json", failed.len() - EXPLAINED)?;
+        writeln!(out, "  … and {} more: see report.html", failed.len() - EXPLAINED)?;
     }
-    // Not broken, so that it can be copied.
-    writeln!(out, "  again: {}", first.repeat)
+    // Not broken, so that they can be copied.
+    if let Some(replay) = words::replay_of(first, &report.submission.path) {
+        writeln!(out, "  replay: {replay}")?;
+    }
+    writeln!(out, "  rerun: {}", words::repeat_command(report, &first.id))
 }
 
 /// What costs no points, but is worth knowing.
 fn write_remarks(out: &mut impl Write, report: &Report, width: Option<usize>) -> io::Result<()> {
-    let all: Vec<(&str, &String)> = report
+    let of = |check: &CheckResult| words::remarks_with_replay(check, &report.submission.path);
+    let all: Vec<(&CheckId, String)> = report
         .checks
         .iter()
-        .flat_map(|check| check.remarks.iter().map(|remark| (check.id.as_str(), remark)))
+        .flat_map(|check| of(check).into_iter().map(|remark| (&check.id, remark)))
         .collect();
     if all.is_empty() {
         return Ok(());
     }
-    writeln!(out, "\n{}", bold("Remarks, for no points"))?;
+    writeln!(out, "\n{}", bold("Remarks (they cost no points)"))?;
     for (id, remark) in all.iter().take(REMARKS) {
         paragraph(out, "  ", &format!("{id}: {remark}"), width)?;
     }
     if all.len() > REMARKS {
-        writeln!(out, "  … and {} more: see report.json", all.len() - REMARKS)?;
+        writeln!(out, "  … and {} more: see report.html", all.len() - REMARKS)?;
     }
     Ok(())
 }
@@ -220,7 +211,7 @@ fn paragraph(out: &mut impl Write, indent: &str, text: &str, width: Option<usize
 }
 
 /// As much of a text as fits in a line of the terminal.
-pub(super) fn one_line(text: &str) -> String {
+pub(crate) fn one_line(text: &str) -> String {
     let width = textwrap::termwidth().saturating_sub(1).max(20);
     let text = text.lines().next().unwrap_or_default();
     if text.chars().count() <= width {
@@ -230,11 +221,11 @@ pub(super) fn one_line(text: &str) -> String {
 }
 
 /// A text in the colour of a verdict.
-pub(super) fn paint(verdict: Verdict, text: &str) -> String {
+pub(crate) fn paint(verdict: &Verdict, text: &str) -> String {
     let color = match verdict {
         Verdict::Pass => AnsiColor::Green,
-        Verdict::Inconclusive | Verdict::LeftOut => AnsiColor::Yellow,
-        Verdict::Fail | Verdict::Error => AnsiColor::Red,
+        Verdict::Inconclusive | Verdict::Skipped { .. } => AnsiColor::Yellow,
+        Verdict::Fail | Verdict::NotRun { .. } => AnsiColor::Red,
     };
     let style = color.on_default();
     format!("{style}{text}{style:#}")
@@ -245,21 +236,19 @@ fn bold(text: &str) -> String {
     format!("{style}{text}{style:#}")
 }
 
-pub(super) fn word(verdict: Verdict) -> &'static str {
+/// The word for a verdict, where failures must be found at a glance.
+pub(crate) fn loud(verdict: &Verdict) -> &'static str {
     match verdict {
-        Verdict::Pass => "pass",
         Verdict::Fail => "FAIL",
-        Verdict::Inconclusive => "inconclusive",
-        Verdict::LeftOut => "left out",
-        Verdict::Error => "error",
+        other => words::verdict(other),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use verdict::report::Diagnosis;
-    use verdict::report::UNKNOWN;
+    use verdict::check::{Evidence, Noise, VarianceOf};
+    use verdict::report::Cause;
     use verdict::sample::report;
 
     fn shown(report: &Report, width: Option<usize>) -> String {
@@ -272,38 +261,54 @@ mod tests {
     fn no_line_is_wider_than_the_terminal_but_those_to_copy() {
         let long = "word ".repeat(60);
         let text = shown(&report(&long), Some(80));
-        for line in text.lines().filter(|line| !line.contains("again:") && !line.contains("FAIL")) {
+        for line in text.lines().filter(|line| !line.contains("rerun:") && !line.contains("FAIL")) {
             // The title of a task is ours, and short; here it is not.
             assert!(line.chars().count() <= 80 || line.starts_with("5.1a"), "{line}");
         }
-        // Without a terminal, an explanation is one line.
-        assert!(shown(&report(&long), None).contains(&format!("    {long}")));
+        // Without a terminal, a text is one line.
+        assert!(shown(&report(&long), None).contains(&format!("  hint: {long}")));
+    }
+
+    #[test]
+    fn a_failed_check_says_what_happened_and_how_to_rerun_it() {
+        let text = shown(&report("x"), Some(120));
+        for expected in [
+            "  FAIL  mean-bias/x/nee/8 (required)\n    the mean is 12.5 % too dark\n",
+            "  rerun: cargo grade x --assignment=x --seed=0 --only=mean-bias/x/nee/8\n",
+            "12.5 of 70 points, graded automatically; 10 more are graded by your tutor",
+            "1 check did not pass, see below",
+        ] {
+            assert!(text.contains(expected), "{expected} in {text}");
+        }
     }
 
     #[test]
     fn a_cause_that_is_unknown_is_one_sentence() {
         let mut report = report("x");
-        let text = shown(&report, Some(80));
-        assert!(text.contains("Likely cause (50 % sure): x\n  seen: x\n  think: x\n"), "{text}");
-        let nothing = String::new;
-        report.diagnosis[0] = Diagnosis {
-            mistake: UNKNOWN.to_owned(),
-            title: "Nobody knows.".to_owned(),
-            confidence: 0.0,
-            evidence: nothing(),
-            hint: nothing(),
-        };
-        let text = shown(&report, Some(80));
-        assert!(text.contains("\nNobody knows.\n") && !text.contains("seen:"), "{text}");
+        let text = shown(&report, Some(120));
+        let expected = "Likely cause (50 % sure): x\n  seen: light is 0.88 ± 0.01 times what it should be in x (`nee`)\n  \
+                        hint: x\n";
+        assert!(text.contains(expected), "{text}");
+        report.diagnosis[0].cause = Cause::Unknown { several_fit: false };
+        let text = shown(&report, Some(120));
+        assert!(text.contains("\nCause unknown: the results fit no known mistake.\n"), "{text}");
+        assert!(!text.contains("seen:"), "{text}");
     }
 
     #[test]
-    fn what_costs_no_points_and_what_is_decided_elsewhere_is_said() {
+    fn remarks_and_points_of_staff_only_checks_are_shown() {
         let mut report = report("x");
-        report.tasks[0].elsewhere = 1.5;
-        report.points.elsewhere = 1.5;
+        report.tasks[0].staff_only = 1.5;
+        report.points.staff_only = 1.5;
+        report.checks[0].verdict = Verdict::Pass;
+        let own = VarianceOf { technique: report.checks[0].id.technique, ratio: 2.5 };
+        report.checks[0].evidence =
+            Some(Evidence::Efficiency(Noise { ratios: vec![own], as_noisy_as: None, is_noisier: true }));
         let text = shown(&report, Some(80));
-        assert!(text.contains("12.5 of 70 automatic points: 68.5 can be had here, 1.5 rest on"), "{text}");
-        assert!(text.contains("Remarks, for no points"), "{text}");
+        assert!(text.contains("up to 1.5 points are added after submission"), "{text}");
+        assert!(
+            text.contains("Remarks (they cost no points)") && text.contains("2.5 times the variance"),
+            "{text}"
+        );
     }
 }

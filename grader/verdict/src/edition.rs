@@ -71,47 +71,16 @@ pub fn for_student(report: &Report, path: Option<&str>) -> (Report, Edition) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{Cause, Diagnosis, SeenIn, SkippedCheck};
     use crate::sample;
-
-    /// A report in which a staff-only scene and a check in drawn scenes are named wherever a name can be.
-    fn telling() -> Report {
-        let mut report = sample::report("open");
-        let shown = report.checks[0].id.clone();
-        let hidden: Vec<CheckId> = ["hidden-variants/scripted/nee/6", "mean-bias/hidden/cellar/nee/8"]
-            .map(|id| id.parse().expect("it is the name of a check"))
-            .into();
-        for id in &hidden {
-            let mut check = report.checks[0].clone();
-            (check.visibility, check.id) = (id.visibility(), id.clone());
-            report.checks.push(check);
-        }
-        report.checks[1].verdict = Verdict::Pass;
-        report.checks[0].verdict =
-            Verdict::Skipped { why: SkipReason::PointsLostTo(Some(hidden[1].clone())) };
-        report.tasks[0].checks = [&[shown.clone()][..], &hidden].concat();
-        report.tasks[0].state = TaskState::RequiredCheckMissing(Some(hidden[1].clone()));
-        report.tasks[1].state = TaskState::Graded { missing: hidden.clone() };
-        report.skipped.push(SkippedCheck { scene: "hidden/cellar".to_owned(), ..report.skipped[0].clone() });
-        report.diagnosis.push(Diagnosis {
-            cause: Cause::ConstantFactor {
-                factor: 2.0,
-                scenes: vec!["hidden/cellar".to_owned(), "a".to_owned()],
-            },
-            confidence: 0.9,
-            seen: Some(SeenIn { wrong: shown, right: Some(hidden[1].clone()) }),
-        });
-        report
-    }
 
     #[test]
     fn nothing_that_only_staff_may_see_is_in_the_students_edition() {
-        let report = telling();
+        let report = sample::with_staff_only_checks();
         let (student, edition) = for_student(&report, None);
         assert_eq!(edition, Edition::Student { concealed: 2, passed: 1 });
         let json = serde_json::to_string(&student).expect("it is JSON");
         let everything = serde_json::to_string(&report).expect("it is JSON");
-        for secret in ["hidden-variants", "cellar", "hidden/"] {
+        for secret in sample::STAFF_ONLY {
             assert!(everything.contains(secret), "{secret} is there to be found");
             assert!(!json.contains(secret), "{secret}");
         }

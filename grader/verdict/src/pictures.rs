@@ -109,7 +109,10 @@ impl Picture {
     }
 }
 
-/// Radiance as the bits of half floats.
+/// Radiance as the bits of half floats. What is finite stays finite, so that infinity can be shown as what it is.
 pub fn half_bits(pixels: &[[f64; 3]]) -> Vec<u16> {
-    pixels.iter().flatten().map(|&value| f16::from_f64(value).to_bits()).collect()
+    let within = |value: f64| {
+        if value.is_finite() { value.clamp(f16::MIN.to_f64(), f16::MAX.to_f64()) } else { value }
+    };
+    pixels.iter().flatten().map(|&value| f16::from_f64(within(value)).to_bits()).collect()
 }

@@ -4,7 +4,7 @@ use arty::integrator::Technique;
 
 use crate::check::{
     BounceEnergy, CheckId, CheckKind, CheckResult, Effect, Evidence, FurnaceTest, MeanTest, Numerics, Reason,
-    RegionId, RegionKind, Verdict, Visibility, WhyNot,
+    RegionId, RegionKind, SkipReason, Verdict, Visibility, WhyNot,
 };
 use crate::pictures::Picture;
 use crate::report::{
@@ -121,6 +121,38 @@ pub fn report(text: &str) -> Report {
         convergence: None,
         images: Vec::new(),
     }
+}
+
+/// Texts that only staff may see in [`with_staff_only_checks`].
+pub const STAFF_ONLY: [&str; 3] = ["hidden-variants", "cellar", "hidden/"];
+
+/// A report in which a staff-only scene and a check in drawn scenes are named wherever a name can be.
+pub fn with_staff_only_checks() -> Report {
+    let mut report = self::report("open");
+    let shown = report.checks[0].id.clone();
+    let hidden: Vec<CheckId> = ["hidden-variants/scripted/nee/6", "mean-bias/hidden/cellar/nee/8"]
+        .map(|id| id.parse().expect("it is the name of a check"))
+        .into();
+    for id in &hidden {
+        let mut check = report.checks[0].clone();
+        (check.visibility, check.id) = (id.visibility(), id.clone());
+        report.checks.push(check);
+    }
+    report.checks[1].verdict = Verdict::Pass;
+    report.checks[0].verdict = Verdict::Skipped { why: SkipReason::PointsLostTo(Some(hidden[1].clone())) };
+    report.tasks[0].checks = [&[shown.clone()][..], &hidden].concat();
+    report.tasks[0].state = TaskState::RequiredCheckMissing(Some(hidden[1].clone()));
+    report.tasks[1].state = TaskState::Graded { missing: hidden.clone() };
+    report.skipped.push(SkippedCheck { scene: "hidden/cellar".to_owned(), ..report.skipped[0].clone() });
+    report.diagnosis.push(Diagnosis {
+        cause: Cause::ConstantFactor {
+            factor: 2.0,
+            scenes: vec!["hidden/cellar".to_owned(), "a".to_owned()],
+        },
+        confidence: 0.9,
+        seen: Some(SeenIn { wrong: shown, right: Some(hidden[1].clone()) }),
+    });
+    report
 }
 
 /// A picture of two pixels in a scene of this name.

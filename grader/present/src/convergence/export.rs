@@ -3,14 +3,15 @@
 use std::path::Path;
 
 use verdict::convergence::{Convergence, Estimate, Role};
-use verdict::error::Result;
+use verdict::error::{Error, Result};
 
 /// Writes all of it as JSON.
 ///
 /// # Errors
 /// If the file cannot be written.
 pub fn save_json(convergence: &Convergence, path: &Path) -> Result<()> {
-    Ok(arty::image::write_aside(path, |writer| serde_json::to_writer_pretty(writer, convergence))?)
+    arty::image::write_aside(path, |writer| serde_json::to_writer_pretty(writer, convergence))
+        .map_err(|error| Error::Output(error.to_string()))
 }
 
 /// The columns before the estimates.
@@ -25,7 +26,8 @@ const ESTIMATES: [&str; 5] = ["relative_mse", "trimmed_relative_mse", "mse", "bi
 /// # Errors
 /// If the file cannot be written.
 pub fn save_csv(convergence: &Convergence, path: &Path) -> Result<()> {
-    Ok(arty::image::write_aside(path, |writer| write(convergence, writer))?)
+    arty::image::write_aside(path, |writer| write(convergence, writer))
+        .map_err(|error| Error::Output(error.to_string()))
 }
 
 fn write(convergence: &Convergence, writer: impl std::io::Write) -> csv::Result<()> {

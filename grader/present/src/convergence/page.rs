@@ -6,7 +6,7 @@ use maud::{Markup, PreEscaped, html};
 
 use verdict::convergence::{Convergence, Crop, Crops};
 
-use super::{sentences, svg};
+use super::{not_measured, sentences, svg};
 use crate::page::document;
 use crate::pictures::png;
 
@@ -15,20 +15,20 @@ pub fn page(convergence: &Convergence, crops: &[Crops]) -> String {
     let body = html! {
         header { h1 { "Error against run time" } }
         main {
-            p.soft { "An unbiased program follows the slope −1; one that flattens has a bias, whose size the dashed line shows. \
-                Bars are 95 % intervals." }
+            p.soft { "The error of an unbiased program falls with slope −1; a curve that flattens shows a bias (dashed line). \
+                Bars are 95 % confidence intervals." }
             @if let Some(plot) = svg(convergence) { div.scroll { (PreEscaped(plot)) } }
             ul { @for sentence in convergence.panels.iter().flat_map(sentences) { li { (sentence) } } }
             @if !crops.is_empty() {
-                h2 { "After the same time" }
-                p.soft { "The part of each picture in which the solution has the most error, after as many whole samples as come \
-                    nearest to " (crops[0].seconds) " seconds of processor time." }
+                h2 { "Equal time" }
+                p.soft { "The part of each image in which the solution has the largest error, at the number of samples nearest to "
+                    (crops[0].seconds) " seconds of processor time." }
                 @for crops in crops {
                     h3 { (crops.scene) ", " (crops.technique) }
                     div.crops { @for crop in &crops.list { (figure(crop)) } }
                 }
             }
-            @for left_out in &convergence.left_out { p { "Left out: " (left_out.check) " " (left_out.scene) ": " (left_out.why) } }
+            @for entry in &convergence.left_out { p { (not_measured(entry)) } }
         }
     };
     format!("{}{}{}", document::begin("Error against run time", ""), body.into_string(), document::end(""))
@@ -57,7 +57,7 @@ mod tests {
     use arty::integrator::Technique;
 
     #[test]
-    fn names_of_hand_ins_are_no_markup() {
+    fn names_of_submissions_are_no_markup() {
         let crop = Crop {
             name: "<b>&".to_owned(),
             samples: Some(3),

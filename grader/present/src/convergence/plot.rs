@@ -4,6 +4,7 @@ use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
+use crate::words::count;
 use verdict::convergence::{Convergence, Curve, Panel, Role};
 
 /// Width and height of a panel in pixels.
@@ -14,7 +15,7 @@ pub(crate) const INK: RGBColor = RGBColor(0x20, 0x21, 0x24);
 pub(crate) const PAPER: RGBColor = RGBColor(0xff, 0xff, 0xfe);
 pub(crate) const GRID: RGBColor = RGBColor(0xe4, 0xe4, 0xe7);
 
-/// In the order of hand-ins; from Okabe and Ito, whom colour-blind readers can tell apart.
+/// In the order of submissions; from Okabe and Ito, whom colour-blind readers can tell apart.
 const SUBMISSIONS: [RGBColor; 5] = [
     RGBColor(0x1f, 0x83, 0xd6),
     RGBColor(0xd5, 0x5e, 0x00),
@@ -22,7 +23,7 @@ const SUBMISSIONS: [RGBColor; 5] = [
     RGBColor(0xb8, 0x86, 0x0b),
     RGBColor(0x3a, 0xa6, 0xc4),
 ];
-/// What is the hand-in's in plots of one hand-in, and what stands beside it.
+/// The submission's colour in plots of one submission, and that of what stands beside it.
 pub(crate) const SUBMISSION: RGBColor = SUBMISSIONS[0];
 pub(crate) const OTHER: RGBColor = SUBMISSIONS[1];
 const SOLUTION: RGBColor = RGBColor(0x00, 0x9e, 0x73);
@@ -113,7 +114,7 @@ fn draw<'a>(panel: &Panel, threads: usize, area: &Area<'a>) -> Result<(), Failur
         .x_label_area_size(42)
         .y_label_area_size(58)
         .build_cartesian_2d(frame.seconds.0..frame.seconds.1, frame.error.0..frame.error.1)?;
-    let threads = if threads == 1 { "1 thread".to_owned() } else { format!("{threads} threads") };
+    let threads = count(threads, "thread");
     chart
         .configure_mesh()
         .bold_line_style(GRID)
@@ -255,7 +256,7 @@ mod tests {
     fn a_plot_names_its_curves_escaped_and_shows_a_bias() {
         let text = drawn(0.04).expect("there are points");
         assert!(text.starts_with("<svg class=\"convergence\"") && text.contains("prefers-color-scheme"));
-        assert!(text.contains("&lt;b&gt;&amp;") && !text.contains("<b>"), "a hand-in's name is no markup");
+        assert!(text.contains("&lt;b&gt;&amp;") && !text.contains("<b>"), "a submission's name is no markup");
         assert!(text.contains("bias 20.0 %"));
         assert!(!drawn(0.0).expect("there are points").contains("bias"));
     }

@@ -5,48 +5,57 @@ use std::io::{self, Write};
 use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
 use comfy_table::{Cell, CellAlignment, ContentArrangement, Table};
 
-use verdict::convergence::{Convergence, Curve, Estimate, Panel, Role};
+use verdict::convergence::{Convergence, Curve, Estimate, LeftOut, Panel, Role};
+
+use crate::words::count;
 
 /// Prints one table for each scene and technique.
 pub fn print_table(convergence: &Convergence) {
-    // Nobody may be reading any more (`… | head`).
+    // The reader may be gone (`… | head`).
     let _ = write(&mut io::stdout().lock(), convergence);
 }
 
 fn write(out: &mut impl Write, convergence: &Convergence) -> io::Result<()> {
     for panel in &convergence.panels {
-        writeln!(out, "\n{}, {}, {} bounces", panel.scene, panel.technique, panel.max_bounces)?;
+        writeln!(
+            out,
+            "\n{}, {}, {}",
+            panel.scene,
+            panel.technique,
+            count(panel.max_bounces as usize, "bounce")
+        )?;
         writeln!(out, "{}", table(panel))?;
     }
-    let threads =
-        if convergence.threads == 1 { "1 thread".into() } else { format!("{} threads", convergence.threads) };
+    let threads = count(convergence.threads, "thread");
     writeln!(
         out,
         "Seconds are processor time, {threads} each. In brackets: 95 % intervals, bootstrapped over renderings."
     )?;
-    for left_out in &convergence.left_out {
-        let place = if left_out.scene.is_empty() { String::new() } else { format!(" in {}", left_out.scene) };
-        writeln!(out, "left out: {}{place}: {}", left_out.check, left_out.why)?;
-    }
-    Ok(())
+    convergence.left_out.iter().try_for_each(|entry| writeln!(out, "{}", not_measured(entry)))
 }
 
-/// Prints one sentence for each hand-in and scene.
+/// Prints one sentence for each submission and scene.
 pub fn print_sentences(convergence: &Convergence) {
     for panel in &convergence.panels {
         for sentence in sentences(panel) {
-            // Nobody may be reading any more.
             let _ = writeln!(io::stdout(), "{sentence}");
         }
     }
-    for left_out in &convergence.left_out {
-        let _ = writeln!(io::stdout(), "left out: {}: {}", left_out.check, left_out.why);
+    for entry in &convergence.left_out {
+        let _ = writeln!(io::stdout(), "{}", not_measured(entry));
     }
 }
 
-/// What a panel says of each hand-in.
+/// What was not measured, and why.
+pub(crate) fn not_measured(entry: &LeftOut) -> String {
+    let LeftOut { program, scene, why } = entry;
+    let place = if scene.is_empty() { String::new() } else { format!(" in {scene}") };
+    format!("skipped: {program}{place}: {why}")
+}
+
+/// What a panel says of each submission.
 pub fn sentences(panel: &Panel) -> Vec<String> {
-    let hand_ins = panel.curves.iter().filter(|curve| curve.role == Role::Submission);
+    let submissions = panel.curves.iter().filter(|curve| curve.role == Role::Submission);
     let sentence = |curve: &Curve| {
         let point = curve.points.last()?;
         let mut text = format!(
@@ -63,17 +72,17 @@ pub fn sentences(panel: &Panel) -> Vec<String> {
             }
         }
         if let Some(slope) = curve.slope {
-            text += &format!("; slope {} (−1 is right)", with_interval(slope));
+            text += &format!("; slope {} (−1 is expected)", with_interval(slope));
         }
         if let Some(efficiency) = curve.efficiency {
             text += &format!("; efficiency {} of the solution's", with_interval(efficiency));
         }
         if curve.floor {
-            text += &format!("; it flattens: a bias of {} stays", bias(curve));
+            text += &format!("; the curve flattens at a bias of {}", bias(curve));
         }
         Some(text)
     };
-    hand_ins.filter_map(sentence).collect()
+    submissions.filter_map(sentence).collect()
 }
 
 fn table(panel: &Panel) -> Table {

@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 
 use verdict::report::Report;
 
-/// One line of JSON. Tasks that a person marks, or that were not run, are not in it.
+/// One line of JSON, without tasks that a tutor grades or that were not run.
 pub(super) fn line(report: &Report) -> serde_json::Result<String> {
     let scores: BTreeMap<&str, f64> =
         report.tasks.iter().filter_map(|task| Some((task.id.as_str(), task.points?))).collect();

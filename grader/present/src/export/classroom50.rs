@@ -5,13 +5,13 @@ use serde_json::{Value, json};
 use super::Surroundings;
 use verdict::report::Report;
 
-/// The result. Its scores are whole numbers: each task is rounded, and the sum is that of the rounded ones. What only staff
-/// can decide does not count.
+/// The result. Its scores are whole numbers: each task is rounded, and the sum is that of the rounded ones. Points that
+/// only staff can decide do not count.
 pub(super) fn result(report: &Report, surroundings: &Surroundings) -> serde_json::Result<String> {
     let graded = report.tasks.iter().filter_map(|task| Some((task, task.points?)));
     let tests: Vec<(String, bool, u64, u64)> = graded
         .map(|(task, points)| {
-            let max = task.max - task.elsewhere;
+            let max = task.max - task.staff_only;
             let name = format!("{} {}", task.id, task.title);
             (name, points >= max, points.round() as u64, max.round() as u64)
         })
@@ -80,7 +80,7 @@ mod tests {
     fn what_only_staff_can_decide_does_not_count_and_rounding_passes_nothing() {
         let task = |points: f64| {
             let mut report = report("x");
-            (report.tasks[0].points, report.tasks[0].max, report.tasks[0].elsewhere) =
+            (report.tasks[0].points, report.tasks[0].max, report.tasks[0].staff_only) =
                 (Some(points), 20.0, 1.0);
             let text = result(&report, &Surroundings::default()).expect("it can be made");
             serde_json::from_str::<Value>(&text).expect("it is JSON")["tests"][0].clone()

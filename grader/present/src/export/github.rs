@@ -1,7 +1,7 @@
 //! Annotations of GitHub Actions: workflow commands that point at lines of the student's file.
 
-use super::Surroundings;
-use super::wording::{shortened, word};
+use super::{Surroundings, shortened};
+use crate::words;
 use verdict::report::Report;
 
 /// GitHub shows so many of a kind for each step.
@@ -12,7 +12,7 @@ const LONGEST: usize = 2000;
 
 /// One line for each annotation: what does not compile, the first checks of each task that failed, what the sandbox
 /// refuses, remarks.
-pub fn annotations(report: &Report, surroundings: &Surroundings) -> String {
+pub(super) fn annotations(report: &Report, surroundings: &Surroundings) -> String {
     let (mut errors, mut warnings, mut notices) = (Vec::new(), Vec::new(), Vec::new());
     let annotation = |line: Option<usize>, title: &str, message: &str| {
         let line = line.map_or_else(String::new, |line| format!(",line={line}"));
@@ -21,7 +21,7 @@ pub fn annotations(report: &Report, surroundings: &Surroundings) -> String {
     };
     if let Some(failure) = &report.submission.build_failure {
         let line = failure.line.map(|line| line as usize);
-        errors.push(annotation(line, "It does not compile", &failure.messages));
+        errors.push(annotation(line, "The file does not compile", &failure.messages));
     }
     // The first of each task, then the second of each: none is crowded out by another.
     let mut failed: Vec<_> = report
@@ -33,8 +33,9 @@ pub fn annotations(report: &Report, surroundings: &Surroundings) -> String {
         .collect();
     failed.sort_by_key(|(rank, _, _)| *rank);
     for (_, task, check) in failed {
-        let title = format!("{} {}: {}", task.id, word(check.verdict), check.id);
-        let message = format!("{}\n{}", check.explanation, check.repeat);
+        let title = format!("{} {}: {}", task.id, words::verdict(&check.verdict), check.id);
+        let rerun = words::repeat_command(report, &check.id);
+        let message = format!("{}\nrerun: {rerun}", words::explanation(check));
         errors.push(annotation(surroundings.lines.get(&task.id).copied(), &title, &message));
     }
     for finding in &report.sandbox.findings {
@@ -42,7 +43,8 @@ pub fn annotations(report: &Report, surroundings: &Surroundings) -> String {
     }
     for check in &report.checks {
         let line = surroundings.lines.get(&check.task).copied();
-        notices.extend(check.remarks.iter().map(|remark| annotation(line, &check.id, remark)));
+        let remarks = words::remarks(check);
+        notices.extend(remarks.iter().map(|remark| annotation(line, &check.id.to_string(), remark)));
     }
     let mut text = String::new();
     for (kind, list) in [("error", errors), ("warning", warnings), ("notice", notices)] {
@@ -121,7 +123,7 @@ mod tests {
         report.tasks.push(task);
         let check = report.checks[0].clone();
         report.checks.extend(vec![check.clone(); 30]);
-        report.checks.push(verdict::report::CheckResult { task: "5.2b".to_owned(), ..check });
+        report.checks.push(verdict::check::CheckResult { task: "5.2b".to_owned(), ..check });
         let text = annotations(&report, &Surroundings::default());
         for kind in ["error", "warning", "notice"] {
             let count = text.lines().filter(|line| line.starts_with(&format!("::{kind} "))).count();

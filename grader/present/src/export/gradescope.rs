@@ -6,10 +6,10 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::Surroundings;
 use super::markdown::{block, text};
 use super::surroundings::Received;
-use super::wording::{not_covered, shortened, word};
+use super::{Surroundings, shortened};
+use crate::words;
 use verdict::report::{Report, TaskResult};
 
 /// Characters of a name.
@@ -22,8 +22,8 @@ pub(super) fn results(report: &Report, surroundings: &Surroundings) -> serde_jso
         .iter()
         .filter_map(|task| {
             let points = task.points?;
-            // What only the staff's grade looks at is not held against anyone here.
-            let all = points + task.elsewhere >= task.max;
+            // Points that only staff can decide are not held against anyone here.
+            let all = points + task.staff_only >= task.max;
             Some(json!({
                 "name": shortened(&task.title, LONGEST),
                 "number": task.id,
@@ -57,13 +57,18 @@ pub(super) fn results(report: &Report, surroundings: &Surroundings) -> serde_jso
 
 fn output(report: &Report, surroundings: &Surroundings) -> String {
     let points = &report.points;
-    let mut out = format!("{} of {} points are graded automatically.", points.earned, points.automatic_max);
-    let rest = not_covered(points);
+    let mut out = format!(
+        "{} of {}, graded automatically",
+        points.earned,
+        words::number_of_points(points.automatic_max)
+    );
+    let rest = words::not_covered(points);
     if !rest.is_empty() {
-        out += &format!(" {rest}.");
+        out += &format!("; {rest}");
     }
+    out += ".";
     if let Some(failure) = &report.submission.build_failure {
-        out += "\n\n**It does not compile.**\n\n";
+        out += "\n\n**The submission does not compile.**\n\n";
         out += &block(&failure.messages);
     }
     if let Some(Received { created_at, due: Some(due) }) = surroundings.received
@@ -71,7 +76,7 @@ fn output(report: &Report, surroundings: &Surroundings) -> String {
     {
         let minutes = created_at.duration_since(due).as_secs().unsigned_abs().div_ceil(60);
         out += &format!(
-            "\n\nIt came {}:{:02} h after it was due. These points do not take account of that.",
+            "\n\nIt was received {}:{:02} h after the deadline. These points do not take lateness into account.",
             minutes / 60,
             minutes % 60
         );
@@ -80,10 +85,10 @@ fn output(report: &Report, surroundings: &Surroundings) -> String {
 }
 
 fn details(report: &Report, task: &TaskResult) -> String {
-    let mut out = text(&task.reason);
+    let mut out = text(&words::task_state(task));
     for check in report.lacking(&task.id) {
-        let _ =
-            write!(out, "\n\n**{}** {}: {}", word(check.verdict), text(&check.id), text(&check.explanation));
+        let (verdict, id) = (words::verdict(&check.verdict), text(&check.id.to_string()));
+        let _ = write!(out, "\n\n**{verdict}** {id}: {}", text(&words::explanation(check)));
     }
     out
 }
@@ -142,7 +147,9 @@ mod tests {
         assert_eq!(value["score"], 12.5);
         let output = value["tests"][0]["output"].as_str().expect("a text");
         assert!(!output.contains("<script") && !output.contains("](http"), "{output}");
-        assert!(value["output"].as_str().is_some_and(|text| text.contains("10 more are marked by a person")));
+        assert!(
+            value["output"].as_str().is_some_and(|text| text.contains("10 more are graded by your tutor"))
+        );
     }
 
     #[test]
@@ -154,20 +161,24 @@ mod tests {
                 Surroundings { received: Some(Received { created_at, due }), ..Surroundings::default() };
             results(&report("x"), &surroundings).expect("it can be made")
         };
-        assert!(at("2026-11-20T11:20:01Z").contains("It came 1:21 h after"));
-        assert!(!at("2026-11-20T10:00:00Z").contains("It came"));
+        assert!(at("2026-11-20T11:20:01Z").contains("It was received 1:21 h after"));
+        assert!(!at("2026-11-20T10:00:00Z").contains("It was received"));
         assert!(at("2026-11-20T11:20:01Z").contains("\"score\": 12.5"));
     }
 
     #[test]
-    fn points_that_are_decided_elsewhere_are_not_held_against_a_task() {
+    fn points_that_only_staff_decide_are_not_held_against_a_task() {
         let mut report = report("x");
-        report.tasks[0].elsewhere = 7.5;
-        report.points.elsewhere = 7.5;
+        report.tasks[0].staff_only = 7.5;
+        report.points.staff_only = 7.5;
         let value: Value =
             serde_json::from_str(&results(&report, &Surroundings::default()).expect("it can be made"))
                 .expect("it is JSON");
         assert_eq!(value["tests"][0]["status"], "passed");
-        assert!(value["output"].as_str().is_some_and(|text| text.contains("7.5 points rest on checks")));
+        assert!(
+            value["output"]
+                .as_str()
+                .is_some_and(|text| text.contains("up to 7.5 points are added after submission"))
+        );
     }
 }

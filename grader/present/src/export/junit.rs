@@ -5,8 +5,9 @@ use std::time::Duration;
 
 use quick_junit::{NonSuccessKind, Report as Document, TestCase, TestCaseStatus, TestSuite};
 
-use super::wording::word;
-use verdict::report::{CheckResult, Report, TaskResult, Verdict};
+use crate::words;
+use verdict::check::{CheckResult, Verdict};
+use verdict::report::{Report, TaskResult};
 
 /// The document. Names of test cases are told apart by their suites and their class names, which are the tasks.
 pub(super) fn xml(report: &Report) -> Result<String, quick_junit::SerializeError> {
@@ -14,7 +15,10 @@ pub(super) fn xml(report: &Report) -> Result<String, quick_junit::SerializeError
     if let Some(failure) = &report.submission.build_failure {
         let mut suite = TestSuite::new("build");
         let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
-        status.set_message("it does not compile").set_type("build").set_description(&failure.messages);
+        status
+            .set_message("the submission does not compile")
+            .set_type("build")
+            .set_description(&failure.messages);
         suite.add_test_case(case("build", "compile", status, report.cost.build));
         document.add_test_suite(suite);
     }
@@ -30,26 +34,31 @@ fn suite(report: &Report, task: &TaskResult) -> TestSuite {
         suite.add_property(("points", points.to_string().as_str()));
     }
     suite.add_property(("max", task.max.to_string().as_str()));
-    if task.elsewhere > 0.0 {
-        suite.add_property(("elsewhere", task.elsewhere.to_string().as_str()));
+    if task.staff_only > 0.0 {
+        suite.add_property(("staff-only", task.staff_only.to_string().as_str()));
     }
     for check in report.checks.iter().filter(|check| check.task == task.id) {
-        let mut case = case(&task.id, &check.id, status(check), check.seconds);
-        if !check.remarks.is_empty() {
-            case.set_system_out(check.remarks.join("\n"));
+        let mut case = case(&task.id, &check.id.to_string(), status(report, check), check.seconds);
+        let remarks = words::remarks_with_replay(check, &report.submission.path);
+        if !remarks.is_empty() {
+            case.set_system_out(remarks.join("\n"));
         }
         suite.add_test_case(case);
     }
-    for left_out in report.left_out.iter().filter(|left_out| task.checks.contains(&left_out.check)) {
-        suite.add_test_case(case(&task.id, &left_out.check, skipped(&left_out.why), 0.0));
+    for entry in &report.skipped {
+        if let Some(check) = entry.check.as_ref().filter(|check| task.checks.contains(check)) {
+            let why = words::why_not(&entry.why);
+            suite.add_test_case(case(&task.id, &check.to_string(), skipped(&why), 0.0));
+        }
     }
+    let state = words::task_state(task);
     let unexplained =
-        suite.test_cases.is_empty() || (report.lacking(&task.id).is_empty() && !task.reason.is_empty());
+        suite.test_cases.is_empty() || (report.lacking(&task.id).is_empty() && !state.is_empty());
     if unexplained {
         // A task without checks of its own, or one that lost its points by another's.
         let status = match task.points {
-            Some(points) if points + task.elsewhere < task.max => failed(&task.reason, "task"),
-            _ => skipped(&task.reason),
+            Some(points) if points + task.staff_only < task.max => failed(&state, "task"),
+            _ => skipped(&state),
         };
         suite.add_test_case(case(&task.id, "points", status, 0.0));
     }
@@ -62,18 +71,15 @@ fn case(class: &str, name: &str, status: TestCaseStatus, seconds: f64) -> TestCa
     case
 }
 
-fn status(check: &CheckResult) -> TestCaseStatus {
-    match check.verdict {
+fn status(report: &Report, check: &CheckResult) -> TestCaseStatus {
+    let explanation = words::explanation(check);
+    match &check.verdict {
         Verdict::Pass => TestCaseStatus::success(),
-        Verdict::LeftOut => skipped(&check.explanation),
-        Verdict::Fail | Verdict::Inconclusive => {
-            let mut status = failed(&check.explanation, word(check.verdict));
-            status.set_description(format!("{}\n\nagain: {}", check.explanation, check.repeat));
-            status
-        }
-        Verdict::Error => {
-            let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
-            status.set_message(&check.explanation).set_type("harness").set_description(&check.explanation);
+        Verdict::Skipped { .. } => skipped(&explanation),
+        verdict @ (Verdict::Fail | Verdict::Inconclusive | Verdict::NotRun { .. }) => {
+            let mut status = failed(&explanation, words::verdict(verdict));
+            let rerun = words::repeat_command(report, &check.id);
+            status.set_description(format!("{explanation}\n\nrerun: {rerun}"));
             status
         }
     }
@@ -118,7 +124,7 @@ mod tests {
     fn what_does_not_compile_is_an_error_and_no_empty_success() {
         let mut report = report("x");
         report.checks.clear();
-        report.left_out.clear();
+        report.skipped.clear();
         report.tasks[0].points = Some(0.0);
         report.submission.build_failure =
             Some(verdict::submission::BuildFailure { messages: "error: x]]>".to_owned(), line: None });

@@ -2,8 +2,11 @@
 
 use std::fmt::Write;
 
-use super::wording::{not_covered, shortened, word};
-use verdict::report::{CheckResult, Report, TaskResult};
+use super::shortened;
+use crate::words;
+use verdict::check::CheckResult;
+use verdict::report::{Report, TaskResult};
+use verdict::sandbox::Level;
 
 /// Failed checks of a task that are explained.
 const EXPLAINED: usize = 5;
@@ -13,49 +16,50 @@ const LONGEST: usize = 600;
 const LONGEST_MESSAGES: usize = 20_000;
 
 /// The summary.
-pub fn summary(report: &Report) -> String {
+pub(super) fn summary(report: &Report) -> String {
     let points = &report.points;
-    let mut out =
-        format!("## {}: {} of {} points\n\n", text(&report.assignment), points.earned, points.automatic_max);
-    let rest = not_covered(points);
+    let max = words::number_of_points(points.automatic_max);
+    let mut out = format!("## {}: {} of {max}\n\n", text(&report.assignment), points.earned);
+    let rest = words::not_covered(points);
     if !rest.is_empty() {
-        let _ = writeln!(out, "{rest}.\n");
+        let _ = writeln!(out, "Graded automatically; {rest}.\n");
     }
     out += "| task | | points | what is missing |\n|---|---|--:|---|\n";
     for task in &report.tasks {
         let points = task.points.map_or_else(|| "–".to_owned(), |points| points.to_string());
-        let (id, title, reason) = (text(&task.id), text(&task.title), text(&task.reason));
+        let (id, title, reason) = (text(&task.id), text(&task.title), text(&words::task_state(task)));
         let _ = writeln!(out, "| {id} | {title} | {points} / {} | {reason} |", task.max);
     }
     if let Some(failure) = &report.submission.build_failure {
-        out += "\n### It does not compile\n\n";
+        out += "\n### The submission does not compile\n\n";
         out += &block(&failure.messages);
     }
-    for cause in &report.diagnosis {
-        let _ = writeln!(out, "\n### {}", text(&cause.heading()));
-        for part in [&cause.evidence, &cause.hint] {
+    for diagnosis in &report.diagnosis {
+        let _ = writeln!(out, "\n### {}", text(&words::heading(diagnosis)));
+        let seen = words::seen(report, diagnosis);
+        for (begin, part) in [("Seen: ", seen.as_str()), ("Hint: ", words::hint(&diagnosis.cause))] {
             if !part.is_empty() {
-                let _ = writeln!(out, "\n{}", text(part));
+                let _ = writeln!(out, "\n{begin}{}", text(part));
             }
         }
     }
     for task in &report.tasks {
         failures(&mut out, report, task);
     }
-    let remarks: Vec<(&CheckResult, &String)> = report
+    let remarks: Vec<(&CheckResult, String)> = report
         .checks
         .iter()
-        .flat_map(|check| check.remarks.iter().map(move |remark| (check, remark)))
+        .flat_map(|check| words::remarks(check).into_iter().map(move |remark| (check, remark)))
         .take(EXPLAINED)
         .collect();
     if !remarks.is_empty() {
-        out += "\n### Remarks, for no points\n\n";
+        out += "\n### Remarks (they cost no points)\n\n";
         for (check, remark) in remarks {
-            let _ = writeln!(out, "- {}: {}", text(&check.id), text(remark));
+            let _ = writeln!(out, "- {}: {}", text(&check.id.to_string()), text(&remark));
         }
     }
-    if !report.sandbox.missing.is_empty() {
-        let (level, missing) = (report.sandbox.level, text(&report.sandbox.missing));
+    if report.sandbox.level < Level::Strong {
+        let (level, missing) = (report.sandbox.level, text(&words::missing_layers(&report.sandbox)));
         let _ = writeln!(out, "\nThe sandbox was {level}: {missing}.");
     }
     out
@@ -66,13 +70,13 @@ fn failures(out: &mut String, report: &Report, task: &TaskResult) {
     let Some(first) = failed.first() else { return };
     let _ = writeln!(out, "\n### {} {}\n", text(&task.id), text(&task.title));
     for check in failed.iter().take(EXPLAINED) {
-        let explanation = text(&check.explanation);
-        let _ = writeln!(out, "- **{}** {}: {explanation}", word(check.verdict), text(&check.id));
+        let (verdict, id) = (words::verdict(&check.verdict), text(&check.id.to_string()));
+        let _ = writeln!(out, "- **{verdict}** {id}: {}", text(&words::explanation(check)));
     }
     if failed.len() > EXPLAINED {
         let _ = writeln!(out, "- … and {} more", failed.len() - EXPLAINED);
     }
-    let _ = write!(out, "\nTo see the first again:\n\n{}", block(&first.repeat));
+    let _ = write!(out, "\nTo rerun the first:\n\n{}", block(&words::repeat_command(report, &first.id)));
 }
 
 /// The beginning of a text, in one line in which nothing is Markdown or HTML, as it can also stand in a table.

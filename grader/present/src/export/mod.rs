@@ -1,4 +1,5 @@
-//! The report in the formats of other systems: one file a format, each made from a [`Report`] alone.
+//! The report in the formats of other systems: one file a format, each made from the student's edition of a
+//! [`Report`], since students read all of them.
 //!
 //! Names, panic messages and paths may hold anything; what is special in a format is escaped by that format.
 
@@ -9,7 +10,6 @@ mod gradescope;
 mod junit;
 mod markdown;
 mod surroundings;
-mod wording;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -19,8 +19,6 @@ use verdict::edition::for_student;
 use verdict::error::{Error, Result};
 use verdict::report::Report;
 
-pub use github::annotations;
-pub use markdown::summary;
 pub use surroundings::{Received, Surroundings};
 
 /// A format of another system.
@@ -52,21 +50,19 @@ impl Format {
         }
     }
 
-    /// The report in this format.
+    /// The report in this format, without what only staff may see.
     ///
     /// # Errors
     /// If the format's library fails, which is a fault of the grader's.
     pub fn render(self, report: &Report, surroundings: &Surroundings) -> Result<String> {
         let trouble = |error: &dyn std::fmt::Display| Error::Harness(format!("export: {error}"));
+        // The one place where it is decided what an export may hold.
+        let (report, _) = &for_student(report, None);
         match self {
             Self::Markdown => Ok(markdown::summary(report)),
             Self::Junit => junit::xml(report).map_err(|error| trouble(&error)),
             Self::Github => Ok(github::annotations(report, surroundings)),
-            // What it shows is read by the student.
-            Self::Gradescope => {
-                let (student, _) = for_student(report, None)?;
-                gradescope::results(&student, surroundings).map_err(|error| trouble(&error))
-            }
+            Self::Gradescope => gradescope::results(report, surroundings).map_err(|error| trouble(&error)),
             Self::Classroom50 => classroom50::result(report, surroundings).map_err(|error| trouble(&error)),
             Self::Autolab => autolab::line(report).map_err(|error| trouble(&error)),
         }
@@ -92,10 +88,10 @@ impl FromStr for Export {
             let names: Vec<String> = all
                 .filter_map(|format| Some(clap::ValueEnum::to_possible_value(format)?.get_name().to_owned()))
                 .collect();
-            format!("there are {}", names.join(", "))
+            format!("the formats are {}", names.join(", "))
         })?;
         if file == Some("") {
-            return Err("after the colon, the name of a file is wanted, or `-`".to_owned());
+            return Err("the colon must be followed by the name of a file, or `-`".to_owned());
         }
         Ok(Self { format, file: file.map(PathBuf::from) })
     }
@@ -119,19 +115,57 @@ impl Export {
     pub fn write(&self, report: &Report, surroundings: &Surroundings, folder: &Path) -> Result<()> {
         let text = self.format.render(report, surroundings)?;
         let Some(file) = self.target(folder) else {
-            // Nobody may be reading any more.
-            let _ = std::io::stdout().lock().write_all(text.as_bytes());
-            return Ok(());
+            let mut out = std::io::stdout().lock();
+            return unless_unread(out.write_all(text.as_bytes()).and_then(|()| out.flush()));
         };
-        arty::image::write_aside(&file, |writer| writer.write_all(text.as_bytes()))?;
-        eprintln!("written: {}", file.display());
+        arty::image::write_aside(&file, |writer| writer.write_all(text.as_bytes()))
+            .map_err(|error| Error::Output(error.to_string()))?;
+        let _ = writeln!(std::io::stderr(), "written: {}", file.display());
         Ok(())
+    }
+}
+
+/// A reader that is gone (`… | head`) is no error; a full disk is.
+fn unless_unread(result: std::io::Result<()>) -> Result<()> {
+    match result {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Error::Output(format!("standard output: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The beginning of a text that someone may have made very long.
+fn shortened(text: &str, characters: usize) -> String {
+    match text.char_indices().nth(characters) {
+        Some((end, _)) => format!("{} …", &text[..end]),
+        None => text.to_owned(),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use verdict::sample::{STAFF_ONLY, with_staff_only_checks};
+
+    #[test]
+    fn only_a_reader_that_is_gone_is_no_error() {
+        assert!(unless_unread(Err(std::io::ErrorKind::BrokenPipe.into())).is_ok());
+        assert!(matches!(unless_unread(Err(std::io::ErrorKind::StorageFull.into())), Err(Error::Output(_))));
+    }
+
+    #[test]
+    fn no_format_names_what_only_staff_may_see() {
+        let mut report = with_staff_only_checks();
+        report.diagnosis[1].seen = None;
+        let surroundings = Surroundings::default();
+        for format in <Format as clap::ValueEnum>::value_variants() {
+            let text = format.render(&report, &surroundings).expect("it can be made");
+            for secret in STAFF_ONLY {
+                assert!(!text.contains(secret), "{format:?}, {secret}: {text}");
+            }
+        }
+    }
 
     #[test]
     fn a_format_may_name_its_file() {

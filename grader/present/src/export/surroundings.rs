@@ -17,24 +17,24 @@ pub struct Surroundings {
     pub environment: BTreeMap<String, String>,
     /// When the report is exported.
     pub now: Option<Timestamp>,
-    /// The file of the hand-in, relative to the checkout of the CI system, if it is within.
+    /// The file of the submission, relative to the checkout of the CI system, if it is within.
     pub file: String,
-    /// Lines of the hand-in, counted from 1, at which the tasks begin, by the tasks' names.
+    /// Lines of the submission, counted from 1, at which the tasks begin, by the tasks' names.
     pub lines: BTreeMap<String, usize>,
-    /// Gradescope's words about the hand-in.
+    /// When Gradescope received the submission.
     pub received: Option<Received>,
 }
 
-/// What Gradescope knows of when a hand-in came: `submission_metadata.json`.
+/// When a submission came and was due: the contents of Gradescope's `submission_metadata.json`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Received {
     /// When it came.
     pub created_at: Timestamp,
-    /// When it was due, the latest of those who handed it in.
+    /// When it was due: the latest date of its authors.
     pub due: Option<Timestamp>,
 }
 
-/// The part of `submission_metadata.json` that is looked at.
+/// The part of `submission_metadata.json` that is read.
 #[derive(Deserialize)]
 struct Metadata {
     created_at: Timestamp,
@@ -63,7 +63,7 @@ impl Received {
     pub fn load(path: &Path) -> Result<Self> {
         let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
         let metadata: Metadata = serde_json::from_slice(&bytes).map_err(|error| Error::file(path, error))?;
-        // Who has an extension has a date of their own.
+        // A student with an extension has a date of their own.
         let own = metadata.users.iter().filter_map(|user| user.assignment.due_date).max();
         Ok(Self { created_at: metadata.created_at, due: own.or(metadata.assignment.due_date) })
     }
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn gradescope_s_words_give_the_date_that_holds_for_the_student() {
+    fn gradescope_names_the_date_that_holds_for_the_student() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let file = folder.path().join("submission_metadata.json");
         let load = |text: &str| {

@@ -1,7 +1,8 @@
-//! The part of the page that says what probably went wrong.
+//! The part of the page that says what is probably wrong.
 
 use maud::{Markup, html};
 
+use crate::words::{heading, hint, seen};
 use verdict::report::Report;
 
 /// Likely causes, each with the observation that decided and a hint; nothing if there are none.
@@ -9,11 +10,12 @@ pub(super) fn section(report: &Report) -> Markup {
     html! {
         @if !report.diagnosis.is_empty() {
             section {
-                h2 { "What probably went wrong" }
-                @for cause in &report.diagnosis {
-                    h3 { (cause.heading()) }
-                    @if !cause.evidence.is_empty() { p { "Seen: " (cause.evidence) } }
-                    @if !cause.hint.is_empty() { p { "Think: " (cause.hint) } }
+                h2 { "Likely causes" }
+                @for diagnosis in &report.diagnosis {
+                    @let (seen, hint) = (seen(report, diagnosis), hint(&diagnosis.cause));
+                    h3 { (heading(diagnosis)) }
+                    @if !seen.is_empty() { p { "Seen: " (seen) } }
+                    @if !hint.is_empty() { p { "Hint: " (hint) } }
                 }
             }
         }

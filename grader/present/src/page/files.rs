@@ -11,10 +11,10 @@ use verdict::report::Report;
 /// For whom pages are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Readers<'a> {
-    /// The student, who has graded: `report.html`.
+    /// The student, who graded their own file: `report.html`.
     Student,
-    /// Staff, and the student: `report-tutor.html`, too. With a path, the student's page names this instead of the
-    /// hand-in's.
+    /// Staff and the student: `report-tutor.html`, too. With a path, the student's page names it instead of the
+    /// submission's.
     Staff(Option<&'a str>),
 }
 
@@ -27,7 +27,7 @@ pub fn write_pages(report: &Report, pictures: &[Picture], file: &Path, readers: 
         Readers::Student => None,
         Readers::Staff(path) => path,
     };
-    let (student, edition) = for_student(report, path)?;
+    let (student, edition) = for_student(report, path);
     let [for_students, for_tutors] = pages_beside(file);
     if readers == Readers::Student {
         return write(&for_students, &small_enough(&student, pictures, edition));
@@ -40,7 +40,8 @@ pub fn write_pages(report: &Report, pictures: &[Picture], file: &Path, readers: 
 }
 
 fn write(path: &Path, text: &str) -> Result<()> {
-    Ok(arty::image::write_aside(path, |writer| std::io::Write::write_all(writer, text.as_bytes()))?)
+    arty::image::write_aside(path, |writer| std::io::Write::write_all(writer, text.as_bytes()))
+        .map_err(|error| Error::Output(error.to_string()))
 }
 
 /// The most bytes of a page: it is sent by mail, and kept for everybody.

@@ -2,9 +2,10 @@
 
 use maud::{Markup, html};
 
+use crate::words::{self, count};
+use verdict::check::{CheckResult, Evidence, Verdict};
 use verdict::edition::Edition;
-use verdict::report::{CheckResult, Report, TaskResult, Verdict};
-use verdict::rubric::CheckKind;
+use verdict::report::{Provenance, Report, TaskResult};
 
 /// Points task by task, with what is wrong and what to do.
 pub(super) fn tasks(report: &Report) -> Markup {
@@ -28,16 +29,17 @@ pub(super) fn tasks(report: &Report) -> Markup {
 
 fn advice(task: &TaskResult, report: &Report) -> Markup {
     let Some(&wrong) = report.lacking(&task.id).first() else {
-        return html! { @if task.reason.is_empty() { "nothing is missing" } @else { (task.reason) } };
+        let state = words::task_state(task);
+        return html! { @if state.is_empty() { "nothing is missing" } @else { (state) } };
     };
     html! {
-        (wrong.explanation) "."
-        @if wrong.verdict == Verdict::Inconclusive { " Bring the noise down first: " } @else { " Mend this first: " }
-        code { (wrong.repeat) }
+        (words::explanation(wrong)) "."
+        @if wrong.verdict == Verdict::Inconclusive { " Reduce the noise first: " } @else { " Fix this first: " }
+        code { (words::repeat_command(report, &wrong.id)) }
     }
 }
 
-/// What the student wrote, for the person who marks it.
+/// What the student wrote, for the tutor who grades it.
 pub(super) fn explanations(report: &Report) -> Markup {
     html! {
         @for explanation in &report.submission.explanations {
@@ -45,7 +47,7 @@ pub(super) fn explanations(report: &Report) -> Markup {
                 summary { "Explanation: " (explanation.name) }
                 @match &explanation.text {
                     Some(text) => pre { (text) },
-                    None => p { "not a text: open the file itself (" (explanation.bytes) " bytes, BLAKE3 " code { (explanation.hash) } ")" }
+                    None => p { "This is not a text: open the file itself (" (count(explanation.bytes, "byte")) ", BLAKE3 " code { (explanation.hash) } ")." }
                 }
             }
         }
@@ -57,101 +59,83 @@ pub(super) fn checks(report: &Report, edition: Edition) -> Markup {
     html! {
         @if !report.checks.is_empty() { h2 { "Checks" } }
         @for task in &report.tasks {
-            @let with = |verdict| report.checks.iter().filter(|check| check.task == task.id && check.verdict == verdict).collect::<Vec<_>>();
-            @let (passed, wrong, left_out) = (with(Verdict::Pass), report.lacking(&task.id), with(Verdict::LeftOut));
+            @let of_task = || report.checks.iter().filter(|check| check.task == task.id);
+            @let passed: Vec<&CheckResult> = of_task().filter(|check| check.verdict == Verdict::Pass).collect();
+            @let skipped: Vec<&CheckResult> = of_task().filter(|check| matches!(check.verdict, Verdict::Skipped { .. })).collect();
+            @let wrong = report.lacking(&task.id);
             @if passed.len() + wrong.len() > 0 {
-                h3 { (task.id) " " (task.title) ": " (passed.len()) " of " (passed.len() + wrong.len()) " passed" }
-                // Beside what is known to be wrong, what nobody can tell helps little.
+                h3 { (task.id) " " (task.title) ": " (passed.len()) " of " (count(passed.len() + wrong.len(), "check")) " passed" }
+                // Beside failures, inconclusive checks help little.
                 @let (open, failed): (Vec<&CheckResult>, Vec<&CheckResult>) =
                     wrong.iter().partition(|check| check.verdict == Verdict::Inconclusive);
-                @if !failed.is_empty() { (table(&failed)) }
-                @if failed.is_empty() && !open.is_empty() { (table(&open)) }
+                @if !failed.is_empty() { (table(report, &failed)) }
+                @if failed.is_empty() && !open.is_empty() { (table(report, &open)) }
                 @if !failed.is_empty() && !open.is_empty() {
-                    details { summary { "what could not be told" } (table(&open)) }
+                    details { summary { "inconclusive checks" } (table(report, &open)) }
                 }
-                @if !passed.is_empty() { details { summary { "what passed" } (table(&passed)) } }
-                @if !left_out.is_empty() { details { summary { "what was not run" } (table(&left_out)) } }
+                @if !passed.is_empty() { details { summary { "passed checks" } (table(report, &passed)) } }
+                @if !skipped.is_empty() { details { summary { "skipped checks" } (table(report, &skipped)) } }
             }
         }
         @if let Edition::Student { concealed, passed } = edition && concealed > 0 {
-            p { "Checks in scenes that are not handed out, which are not shown: " (concealed) ", of which " (passed) " passed. They hold a \
-                hand-in to nothing that the others do not: what is right in every scene passes them." }
+            p { (count(concealed, "check")) " in scenes that are not handed out " @if concealed == 1 { "is" } @else { "are" }
+                " not shown; " (passed) " passed. They ask for nothing that the others do not: a submission that is right in every \
+                scene passes them." }
         }
     }
 }
 
-fn table(checks: &[&CheckResult]) -> Markup {
+fn table(report: &Report, checks: &[&CheckResult]) -> Markup {
     html! {
         div.scroll { table.cards {
             thead { tr {
-                th { "check" } th { "verdict" } th { "why" } th.number { "effect" } th.number { "99 % interval" }
-                th.number title="the smallest error of the whole picture that would have been found" { "detectable" }
+                th { "check" } th { "verdict" } th { "why" } th.number { "error" } th.number { "99 % interval" }
+                th.number title="the smallest relative error of the whole image that would have been found" { "detectable" }
                 th.number { "samples" } th.number { "seconds" }
             } }
-            tbody { @for check in checks { (row(check)) } }
+            tbody { @for check in checks { (row(report, check)) } }
         } }
     }
 }
 
-/// What a check looks at, and why.
-fn about(kind: CheckKind) -> &'static str {
-    match kind {
-        CheckKind::ClosedForm => "compares each pixel with a formula: no reference takes part",
-        CheckKind::Efficiency => {
-            "compares the noise with that of the solution: means alone cannot tell whether a technique is used"
-        }
-        CheckKind::HiddenVariants => "compares with the solution in scenes that are drawn anew for each seed",
-        CheckKind::LightPick => "counts how often each light is picked, and what is divided by",
-        CheckKind::MeanBias => {
-            "compares means of regions with the reference: noise may be anything, bias may not"
-        }
-        CheckKind::Metamorphic => "turns, moves and rebuilds the scene in ways that must not show",
-        CheckKind::MisWeights => {
-            "reads single weights off scenes in which the light can be reached in one way only"
-        }
-        CheckKind::Randomness => {
-            "compares runs with each other: random numbers must be the sampler's, and used once"
-        }
-        CheckKind::RayBudget => "counts rays",
-        CheckKind::Stability => "makes sizes, distances, radiances and densities very small and very large",
-        CheckKind::WhiteFurnace => {
-            "looks at a closed surface that emits the same everywhere, where each bounce is known"
-        }
-    }
-}
-
-fn row(check: &CheckResult) -> Markup {
+fn row(report: &Report, check: &CheckResult) -> Markup {
     let percent = |value: f64| format!("{:+.2} %", 100.0 * value);
-    let (class, word) = match check.verdict {
-        Verdict::Pass => ("pass", "pass"),
-        Verdict::Fail => ("fail", "FAIL"),
-        Verdict::Inconclusive => ("inconclusive", "inconclusive"),
-        Verdict::LeftOut => ("left-out", "left out"),
-        Verdict::Error => ("error", "error"),
+    let class = match check.verdict {
+        Verdict::Pass => "pass",
+        Verdict::Fail | Verdict::NotRun { .. } => "fail",
+        Verdict::Inconclusive => "inconclusive",
+        Verdict::Skipped { .. } => "skipped",
     };
+    let test = check.mean_test();
+    let effect = test.and_then(|test| test.effect);
+    let interval = test.and_then(|test| test.interval);
+    let detectable = test.and_then(|test| test.detectable);
     html! {
         tr {
             td.name {
-                (breakable(&check.id))
-                @if check.evidence { br; span.soft { "no points without it" } }
+                (breakable(&check.id.to_string()))
+                @if check.required { br; span.soft { "required" } }
             }
-            td class=(class) { (word) }
+            td class=(class) { (crate::terminal::loud(&check.verdict)) }
             td {
-                (check.explanation)
-                @if !check.variance_ratios.is_empty() {
-                    br; span.soft { "variance, relative to the solution's: "
-                        (check.variance_ratios.iter().map(|it| format!("{} {:.2}", it.technique, it.ratio)).collect::<Vec<_>>().join(", ")) }
+                (words::explanation(check))
+                @if let Some(Evidence::Efficiency(noise)) = &check.evidence && !noise.ratios.is_empty() {
+                    br; span.soft { "variance relative to the solution's: " (words::variances(noise)) }
                 }
-                @for remark in &check.remarks { br; span.soft { "Remark: " (remark) } }
+                @for remark in words::remarks_with_replay(check, &report.submission.path) { br; span.soft { "Remark: " (remark) } }
                 details.again {
-                    summary { "what is looked at, and how to see it again" }
-                    p.soft { "It " (about(check.check)) "." }
-                    code { (check.repeat) }
+                    summary { "what this checks / re-run" }
+                    p.soft { "This check " (words::about(check.id.kind)) "." }
+                    @if check.verdict == Verdict::Fail && test.is_some() && check.numerics.is_clean() {
+                        p.soft { "The result was confirmed with independent random numbers." }
+                    }
+                    code { (words::repeat_command(report, &check.id)) }
+                    @if let Some(replay) = words::replay_of(check, &report.submission.path) { br; code { (replay) } }
                 }
             }
-            (number("effect", check.effect.map(percent)))
-            (number("99 % interval", check.interval.map(|[low, high]| format!("{} to {}", percent(low), percent(high)))))
-            (number("detectable", check.detectable.map(|detectable| format!("{:.2} %", 100.0 * detectable))))
+            (number("error", effect.map(percent)))
+            (number("99 % interval", interval.map(|[low, high]| format!("{} to {}", percent(low), percent(high)))))
+            (number("detectable", detectable.map(|detectable| format!("{:.2} %", 100.0 * detectable))))
             (number("samples", Some(check.samples.to_string())))
             (number("seconds", Some(format!("{:.2}", check.seconds))))
         }
@@ -168,33 +152,50 @@ fn breakable(name: &str) -> Markup {
     html! { @for part in name.split_inclusive('/') { (part) wbr; } }
 }
 
-pub(super) fn left_out(report: &Report) -> Markup {
+/// Checks that mean nothing in their scenes, and why.
+pub(super) fn skipped(report: &Report) -> Markup {
     html! {
-        @if !report.left_out.is_empty() {
-            h2 { "Left out, and why" }
+        @if !report.skipped.is_empty() {
+            h2 { "Skipped checks" }
             details {
-                summary { (report.left_out.len()) " checks would mean nothing in their scenes" }
-                ul { @for entry in &report.left_out { li { (entry.check) ", " (entry.scene) ": " (entry.why) } } }
+                summary { (count(report.skipped.len(), "check")) " cannot judge anything, whatever is submitted" }
+                ul { @for entry in &report.skipped {
+                    li { (entry.kind) " with " (entry.technique) ", " (entry.scene) ": " (words::why_not(&entry.why)) }
+                } }
             }
         }
     }
 }
 
+/// Versions, seeds and times.
 pub(super) fn provenance(report: &Report) -> Markup {
-    let cost = &report.cost;
+    let (cost, sandbox, numerics) = (&report.cost, &report.sandbox, words::numerics(&report.numerics));
+    let Provenance { assignment, grader, framework, rubric, references, seed, toolchain, threads } =
+        &report.provenance;
+    let [seed, threads] = [seed.to_string(), threads.to_string()];
+    let rows = [
+        ("submission (BLAKE3)", &report.submission.hash),
+        ("assignment", assignment),
+        ("grader", grader),
+        ("framework (BLAKE3)", framework),
+        ("rubric (BLAKE3)", rubric),
+        ("references (BLAKE3)", references),
+        ("seed", &seed),
+        ("compiler", toolchain),
+        ("threads", &threads),
+    ];
     html! {
-        h2 { "What this rests on" }
+        h2 { "Versions and seeds" }
         details {
             summary { "provenance" }
             div.scroll { table { tbody {
-                tr { th { "hand-in (BLAKE3)" } td { code { (report.submission.hash) } } }
-                @for (key, value) in &report.provenance { tr { th { (key) } td { code { (value) } } } }
-                tr { th { "confinement" } td { (report.sandbox.level) " " (report.sandbox.missing) } }
-                @for finding in &report.sandbox.findings {
+                @for (name, value) in rows { tr { th { (name) } td { code { (value) } } } }
+                tr { th { "sandbox" } td { (sandbox.level) " " (words::missing_layers(sandbox)) } }
+                @for finding in &sandbox.findings {
                     tr { th { "line " (finding.line) } td { code { (finding.what) } ": " (finding.why) } }
                 }
-                tr { th { "seconds" } td { (format!("compiling {:.1}, running {:.1}, all {:.1}", cost.build, cost.run, cost.total)) } }
-                tr { th { "samples that are no radiance" } td { (report.numerics.non_finite) " not finite, " (report.numerics.negative) " negative" } }
+                tr { th { "seconds" } td { (format!("compiling {:.1}, running {:.1}, total {:.1}", cost.build, cost.run, cost.total)) } }
+                @if !numerics.is_empty() { tr { th { "bad samples" } td { (numerics) } } }
             } } }
         }
     }

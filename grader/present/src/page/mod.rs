@@ -14,10 +14,12 @@ pub use files::{Readers, pages_beside, pictures_beside, remove_pages, write_page
 
 use maud::{Markup, PreEscaped, html};
 
-use crate::convergence::{sentences, svg};
+use crate::convergence::{not_measured, sentences, svg};
+use crate::words;
+use verdict::check::{CheckId, CheckResult, Evidence, Visibility};
 use verdict::edition::Edition;
 use verdict::pictures::Picture;
-use verdict::report::{CheckResult, Report};
+use verdict::report::Report;
 
 const SCRIPT: &str = include_str!("viewer.js");
 
@@ -28,28 +30,27 @@ pub fn page(report: &Report, pictures: &[Picture], edition: Edition) -> String {
         header {
             h1 { (report.submission.path) }
             p.soft { "assignment " (report.assignment) @if edition == Edition::Tutor { " · tutor's edition" } }
-            p.sum { (points.earned) " of " (points.automatic_max) " points "
-                small { "graded automatically; " @match points.marked {
-                    Some(marked) => { (marked) " of " (points.manual_max) " given by a person" }
-                    None => { (points.manual_max) " more are marked by a person" }
-                } } }
+            @let rest = words::not_covered(points);
+            p.sum { (points.earned) " of " (words::number_of_points(points.automatic_max)) " "
+                small { "graded automatically" @if !rest.is_empty() { "; " (rest) } } }
         }
         main {
             (findings::tasks(report))
             @if let Some(failure) = &report.submission.build_failure {
-                h2 { "It does not compile" }
+                h2 { "The submission does not compile" }
                 pre tabindex="0" { (failure.messages) }
             }
             (causes::section(report))
             (findings::explanations(report))
             (findings::checks(report, edition))
-            @let shown = pictures.iter().filter(|picture| edition == Edition::Tutor || !verdict::edition::is_hidden_name(&picture.scene));
+            @let is_public = |picture: &&Picture| Visibility::of_scene(&picture.scene) == Visibility::Public;
+            @let shown = pictures.iter().filter(|picture| edition == Edition::Tutor || is_public(picture));
             (viewer::section(report, &shown.collect::<Vec<_>>()))
             (convergence(report))
             (weights(report))
             (furnaces(report))
             (p_values(report))
-            (findings::left_out(report))
+            (findings::skipped(report))
             (findings::provenance(report))
         }
     };
@@ -61,67 +62,73 @@ fn convergence(report: &Report) -> Markup {
     let Some(convergence) = &report.convergence else { return html! {} };
     html! {
         h2 { "Error against run time" }
-        p.soft { "For no points. An unbiased program follows the slope −1; one that flattens has a bias, whose size the dashed \
-            line shows. Bars are 95 % intervals." }
+        p.soft { "This changes no points. The error of an unbiased program falls with slope −1; a curve that flattens shows a bias \
+            (dashed line). Bars are 95 % confidence intervals." }
         @if let Some(plot) = svg(convergence) { div.scroll { (PreEscaped(plot)) } }
         ul { @for sentence in convergence.panels.iter().flat_map(sentences) { li { (sentence) } } }
-        @for left_out in &convergence.left_out { p { "Left out: " (left_out.check) " " (left_out.scene) ": " (left_out.why) } }
+        @for entry in &convergence.left_out { p { (not_measured(entry)) } }
     }
 }
 
 /// The weights that were measured, where they were.
 fn weights(report: &Report) -> Markup {
-    let measured =
-        report.checks.iter().filter_map(|check| Some((check, plots::weights(check.weights.as_ref()?)?)));
+    let measured = report.checks.iter().filter_map(|check| match &check.evidence {
+        Some(Evidence::MisWeights(test)) => Some((check, plots::weights(test.measured.as_ref()?)?)),
+        _ => None,
+    });
     html! {
         @for (check, plot) in measured {
-            h2 { "Weights of multiple importance sampling" }
+            h2 { "MIS weights" }
             div.beside {
                 div.scroll { (PreEscaped(plot)) }
                 div {
-                    p { "Dots are the weights that the hand-in gives a light sample, rings those that it gives a BSDF sample, \
-                        over the ratio of the two densities for the same direction. The lines are those of the balance heuristic." }
-                    p { (check.explanation) }
-                    p.soft { "Other weights are right too, if both sum to one and that of the light sample rises with p_L / p_B." }
+                    p { "Weights of light samples (dots) and of BSDF samples (rings) over the ratio of the two densities for the \
+                        same direction. The lines show the balance heuristic." }
+                    p { (words::explanation(check)) }
+                    p.soft { "Other weights are right too, if the two sum to one and that of the light sample rises with p_L / p_B." }
                 }
             }
         }
     }
 }
 
-/// How often light counts, by how many times it was scattered.
+/// Energy per bounce.
 fn furnaces(report: &Report) -> Markup {
-    let plots: Vec<(&CheckResult, String)> =
-        report.checks.iter().filter_map(|check| Some((check, plots::furnace(check)?))).collect();
+    let plot = |check: &CheckResult| match &check.evidence {
+        Some(Evidence::WhiteFurnace(test)) => plots::furnace(test),
+        _ => None,
+    };
+    let plots: Vec<(&CheckId, String)> =
+        report.checks.iter().filter_map(|check| Some((&check.id, plot(check)?))).collect();
     html! {
         @if !plots.is_empty() {
-            h2 { "Furnaces, bounce by bounce" }
-            p { "Inside of a closed surface that emits the same everywhere, light that is scattered k times must count once, \
-                for every k: the dashed line. Bars are 99 % intervals. The first k that is off tells which bounce is wrong: twice is \
-                light that both techniques count, nothing is light that neither finds." }
+            h2 { "White furnace: energy per bounce" }
+            p { "Inside a closed surface that emits uniformly, the energy of each bounce is known: relative to exact it is 1, the \
+                dashed line. Bars are 99 % confidence intervals. The first bounce that is off is the one that is wrong: 2 is light \
+                that both techniques count, 0 is light that neither finds." }
             div.plots {
-                @for (check, plot) in plots {
-                    figure { figcaption { b { (check.scene) ", " (check.technique) } } div.scroll { (PreEscaped(plot)) } }
+                @for (id, plot) in plots {
+                    figure { figcaption { b { (id.scene) ", " (id.technique) } } div.scroll { (PreEscaped(plot)) } }
                 }
             }
         }
     }
 }
 
-/// Whether what passed looks like what is right.
+/// Whether the differences of tiles look like noise.
 fn p_values(report: &Report) -> Markup {
     let plots = [
         (
             true,
-            "In checks that passed",
-            "Were every tile right, each bar would be as high as the line, but for chance: nineteen \
-            of twenty bars end between the dashed lines. A high bar on the left is tiles that are off by more than chance. \
-            Low bars there are caution: noise that is not well known is taken to be larger.",
+            "Checks that passed",
+            "Without bias all bars are equally high but for noise: 19 of 20 end between the dashed lines. A high bar on \
+            the left means tiles that differ by more than noise. Low bars there are caution: noise that is not well known is \
+            assumed to be larger.",
         ),
         (
             false,
-            "In the other checks",
-            "A high bar on the left is expected here: tiles that are off by more than chance.",
+            "Other checks",
+            "A high bar on the left is expected here: tiles that differ by more than noise.",
         ),
     ];
     let plots: Vec<_> = plots
@@ -130,13 +137,13 @@ fn p_values(report: &Report) -> Markup {
         .collect();
     html! {
         @if !plots.is_empty() {
-            h2 { "Is it chance?" }
-            p { "Pictures are compared with the reference in tiles. A p-value says how likely a difference of at least this size \
-                would be if only chance were at work." }
+            h2 { "Bias or noise?" }
+            p { "Images are compared with the reference in tiles. The p-value of a tile is the probability of a difference of at least \
+                this size if there is only noise." }
             div.plots {
                 @for (title, words, values) in plots {
                     figure {
-                        figcaption { b { (title) } " " span.soft { (values.tiles) " tiles of " (values.pictures) " pictures; "
+                        figcaption { b { (title) } " " span.soft { (words::count(values.tiles, "tile")) " of " (words::count(values.pictures, "image")) "; "
                             (format!("{:.0} %", 100.0 * values.unlikely)) " below 0.05" } }
                         div.scroll { (PreEscaped(values.plot)) }
                         p.soft { (words) }

@@ -1,13 +1,15 @@
 use super::*;
-use verdict::sample::{EVIL, picture, report};
+use verdict::check::{MeanTest, MeasuredWeights, WeightForm, WeightTest};
+use verdict::edition::for_student;
+use verdict::sample::{EVIL, STAFF_ONLY, furnace_test, mean_test, picture, report, with_staff_only_checks};
 
 fn of(text: &str, pictures: &[Picture]) -> String {
     page(&report(text), pictures, Edition::Tutor)
 }
 
 #[test]
-fn nothing_that_a_hand_in_says_is_markup() {
-    let student = verdict::edition::for_student(&report(EVIL), Some("render_pt.rs")).expect("it can be made");
+fn nothing_that_a_submission_says_is_markup() {
+    let student = for_student(&report(EVIL), Some("render_pt.rs"));
     for text in [of(EVIL, &[picture(EVIL)]), page(&student.0, &[picture(EVIL)], student.1)] {
         assert!(!text.contains("<script>alert") && text.contains("&lt;script&gt;alert(1)"), "escaped");
         assert!(!text.contains("\"'&|") && !text.contains("href=") && !text.contains("src="));
@@ -15,10 +17,17 @@ fn nothing_that_a_hand_in_says_is_markup() {
 }
 
 #[test]
-fn the_page_says_points_effects_and_the_command_that_repeats() {
+fn the_page_says_points_errors_and_the_command_that_reruns() {
     let text = of(EVIL, &[]);
-    for expected in ["12.5 of 70 points", "12.5 / 20", "-12.50 %", "4096", "Content-Security-Policy", "FAIL"]
-    {
+    for expected in [
+        "12.5 of 70 points",
+        "12.5 / 20",
+        "-12.50 %",
+        "4096",
+        "Content-Security-Policy",
+        "FAIL",
+        "cargo grade",
+    ] {
         assert!(text.contains(expected), "{expected}");
     }
 }
@@ -46,19 +55,54 @@ fn pixels_are_half_floats_and_what_is_derived_is_bytes() {
 #[test]
 fn plots_are_there_where_there_are_numbers() {
     let mut report = report("open");
-    report.checks[0].z = vec![1.0; 64];
-    report.checks[0].weights = Some(verdict::report::Weights {
-        largest_deviation: 0.0,
-        light_exponents: None,
-        bsdf_exponents: None,
-        measured: vec![[-1.0, 0.1, 0.9], [1.0, 0.9, 0.1]],
-    });
+    let measured = MeasuredWeights {
+        light: WeightForm::Other,
+        bsdf: WeightForm::Other,
+        sum: [1.0; 2],
+        deviation_at_first_vertex: 0.0,
+        deviation_at_later_vertices: 0.0,
+        only_way: Vec::new(),
+        points: vec![[-1.0, 0.1, 0.9], [1.0, 0.9, 0.1]],
+    };
+    let kinds = [
+        Evidence::MeanBias(MeanTest { z: vec![1.0; 64], ..mean_test() }),
+        Evidence::MisWeights(WeightTest { fault: None, measured: Some(measured) }),
+        Evidence::WhiteFurnace(furnace_test()),
+    ];
+    report.checks =
+        kinds.map(|evidence| CheckResult { evidence: Some(evidence), ..report.checks[0].clone() }).to_vec();
     let text = page(&report, &[], Edition::Tutor);
     assert_eq!(text.matches("<svg class=\"plot\"").count(), 3);
-    report.checks[0].z.clear();
-    report.checks[0].coefficients.clear();
-    report.checks[0].weights = None;
+    report.checks.clear();
     assert!(!page(&report, &[], Edition::Tutor).contains("<svg"));
+}
+
+#[test]
+fn a_students_page_names_nothing_that_only_staff_may_see() {
+    let report = with_staff_only_checks();
+    let pictures = [picture("open"), picture("hidden/cellar")];
+    let (student, edition) = for_student(&report, None);
+    let (shown, everything) = (page(&student, &pictures, edition), page(&report, &pictures, Edition::Tutor));
+    for secret in STAFF_ONLY {
+        assert!(!shown.contains(secret), "{secret}");
+        assert!(everything.contains(secret), "{secret} is there to be found");
+    }
+    assert!(shown.contains("2 checks in scenes that are not handed out are not shown; 1 passed."));
+    assert!(everything.contains("tutor's edition") && !shown.contains("tutor's edition"));
+}
+
+#[test]
+fn files_for_students_do_not_name_a_path_of_the_staff() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("report.json");
+    let mut report = with_staff_only_checks();
+    report.submission.path = "submissions/Ann B_12/render_pt.rs".to_owned();
+    report.provenance.assignment = "/staff/tiny".to_owned();
+    write_pages(&report, &[], &file, Readers::Staff(Some("my/render_pt.rs"))).expect("it can be written");
+    let [student, tutor] =
+        pages_beside(&file).map(|path| std::fs::read_to_string(path).expect("it is there"));
+    assert!(!student.contains("Ann B") && !student.contains("/staff") && student.contains("my/render_pt.rs"));
+    assert!(tutor.contains("Ann B") && tutor.contains("/staff/tiny"));
 }
 
 #[test]

@@ -20,13 +20,13 @@ decode.submission = decode.reference = decode.radiance;
 const srgb = (x) => (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055);
 const curves = {
   clip: (x) => Math.min(1, Math.max(0, x)),
-  reinhard: (x) => (x === Infinity ? 1 : Math.max(0, x) / (1 + Math.max(0, x))),
+  reinhard: (x) => Math.max(0, x) / (1 + Math.max(0, x)),
   aces: (x) => { x = 0.6 * Math.min(1e6, Math.max(0, x)); return Math.min(1, (x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14)); },
 };
 const clamp = (value, low, high) => Math.max(low, Math.min(high, value));
-// Blue is too dark, orange too bright, black is right, magenta is no number.
-const noNumber = [1, 0, 1];
-const signed = (t) => { if (Number.isNaN(t)) return noNumber; t = clamp(t, -1, 1); return t < 0 ? [0, -0.55 * t, -t] : [t, 0.45 * t, 0]; };
+// Blue is too dark, orange too bright, black is right, magenta is NaN or infinity.
+const notFinite = [1, 0, 1];
+const signed = (t) => { if (!Number.isFinite(t)) return notFinite; t = clamp(t, -1, 1); return t < 0 ? [0, -0.55 * t, -t] : [t, 0.45 * t, 0]; };
 // Black, purple, orange, white.
 const heat = (t) => [Math.min(1, 1.8 * t), Math.max(0, 1.6 * t - 0.5), Math.max(0, t < 0.4 ? 1.5 * t : t < 0.7 ? 1.4 - 2 * t : 3.3 * t - 2.3)];
 const modes = ["submission", "reference", "difference", "z", "flip"];
@@ -57,7 +57,7 @@ const bringToLife = (figure) => {
   const colorOf = (technique, mode, i, scale, curve) => {
     const rgb = (list) => {
       const all = [0, 1, 2].map((c) => list[3 * i + c]);
-      return all.some(Number.isNaN) ? noNumber : all.map((value) => srgb(curve(scale * value)));
+      return all.some((value) => !Number.isFinite(value)) ? notFinite : all.map((value) => srgb(curve(scale * value)));
     };
     if (mode === "reference") return rgb(reference);
     const { submission, z, flip } = planes[technique];
@@ -113,7 +113,7 @@ const bringToLife = (figure) => {
       return (Number.isFinite(difference) ? (difference > 0 ? "+" : "") + difference.toFixed(0) + " %" : "–").padStart(10);
     });
     figure.querySelector(".probe").textContent = [
-      `pixel (${x}, ${y})${held ? ", held: click to let go" : ""}`, ...rows, "reference " + three(reference), technique.padEnd(4) + "off by".padEnd(6) + off.join(""),
+      `pixel (${x}, ${y})${held ? ", held: click to release" : ""}`, ...rows, "reference " + three(reference), technique.padEnd(4) + " error".padEnd(6) + off.join(""),
       `z ${z[i].toFixed(1)}${Math.abs(z[i]) >= 12.7 ? " or beyond" : ""}${flip.length ? `   FLIP ${flip[i].toFixed(3)}` : ""}`,
     ].join("\n");
     const number0 = clamp(Math.round(+control("sample").value) || 1, 1, seeds.length * samples) - 1;
@@ -206,7 +206,7 @@ const bringToLife = (figure) => {
 };
 
 for (const figure of document.querySelectorAll("figure.pictures")) bringToLife(figure);
-// On paper nothing can be unfolded; afterwards all is as it was.
+// On paper nothing can be unfolded; afterwards everything is folded as before.
 let unfolded = [];
 addEventListener("beforeprint", () => {
   unfolded = [...document.querySelectorAll("details:not([open])")];

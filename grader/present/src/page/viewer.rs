@@ -8,9 +8,11 @@ use verdict::pictures::{ImageError, Picture};
 use verdict::report::Report;
 use verdict::text::quote;
 
+use crate::words;
+
 /// What can be shown: the value that the script knows, and its label.
 const MODES: [(&str, &str); 5] = [
-    ("submission", "hand-in"),
+    ("submission", "submission"),
     ("reference", "reference"),
     ("difference", "difference"),
     ("z", "z (±5)"),
@@ -19,14 +21,14 @@ const MODES: [(&str, &str); 5] = [
 
 /// Keys, and what they do while a picture has the focus.
 const KEYS: [(&str, &str); 8] = [
-    ("←↑↓→", "another pixel (with Shift: ten)"),
-    ("1 … 5", "hand-in, reference, difference, z, FLIP"),
+    ("←↑↓→", "move to another pixel (with Shift: by ten)"),
+    ("1 … 5", "submission, reference, difference, z, FLIP"),
     ("b n m", "technique: BSDF sampling, NEE, MIS"),
     ("f", "flip to the reference and back"),
-    ("+ −", "zoom; the wheel with Ctrl, or a double click, too"),
-    ("e d", "brighter, darker"),
+    ("+ −", "zoom; also Ctrl + wheel, or a double click"),
+    ("e d", "exposure up, down"),
     ("[ ]", "wipe"),
-    ("0", "all as it was"),
+    ("0", "reset"),
 ];
 
 /// All pictures; nothing if there are none.
@@ -34,9 +36,9 @@ pub(super) fn section(report: &Report, pictures: &[&Picture]) -> Markup {
     html! {
         @if !pictures.is_empty() {
             h2 { "Pictures" }
-            p.soft { "Move over a picture to read its pixels, click to hold one. Pictures with few samples are noisy: what \
-                decides is the checks." }
-            noscript { p { "The pictures are drawn by a script of this page, which your browser does not run." } }
+            p.soft { "Move over a picture to read its pixels; click to hold one. Pictures with few samples are noisy: the checks \
+                decide, not these pictures." }
+            noscript { p { "The pictures need JavaScript, which is turned off in your browser." } }
             details.keys { summary { "keys" } dl { @for (key, what) in KEYS { div { dt { kbd { (key) } } dd { (what) } } } } }
             @for (index, picture) in pictures.iter().enumerate() { (figure(index, picture, report)) }
         }
@@ -46,16 +48,16 @@ pub(super) fn section(report: &Report, pictures: &[&Picture]) -> Markup {
 /// A figure that the script of the page brings to life. Names of radio buttons end in `index`.
 fn figure(index: usize, picture: &Picture, report: &Report) -> Markup {
     let Picture { scene, width, height, samples, max_bounces, seeds, .. } = picture;
-    let path = quote(report.submission.path.as_ref());
+    let [path, scene_name] = [&report.submission.path, scene].map(|text| quote(text.as_ref()));
     let replay = format!(
-        "cargo grader replay {path} --scene={scene} --max-bounces={max_bounces} --size={width}x{height}"
+        "cargo grader replay {path} --scene={scene_name} --max-bounces={max_bounces} --size={width}x{height}"
     );
     let seeds: Vec<String> = seeds.iter().map(u64::to_string).collect();
     let count = seeds.len() as u64 * samples;
     let last = picture.rendered.last().map(|rendered| rendered.technique);
     html! {
         figure.pictures data-width=(width) data-height=(height) data-replay=(replay) data-seeds=(seeds.join(" ")) data-samples=(samples) {
-            figcaption { b { (scene) } " " span.soft { (count) " samples per pixel, up to " (max_bounces) " bounces" } }
+            figcaption { b { (scene) } " " span.soft { (words::count(count as usize, "sample")) " per pixel, at most " (words::count(*max_bounces as usize, "bounce")) } }
             div.viewer {
                 div.stage {
                     canvas.view tabindex="0" aria-label={ "pictures of " (scene) "; arrow keys move the pixel that is read" } {}
@@ -81,12 +83,13 @@ fn figure(index: usize, picture: &Picture, report: &Report) -> Markup {
                         p { label { "wipe to the reference " input type="range" name="wipe" min="0" max="100" value="100"; } }
                         p { label { "zoom " input type="range" name="zoom" min="0" max="5" step="0.5" value="0"; } }
                         p { label { "tone map " select name="curve" {
-                            option value="clip" { "sRGB, cut off" } option value="aces" { "ACES" } option value="reinhard" { "Reinhard" }
+                            option value="clip" { "sRGB, clipped" } option value="aces" { "ACES" } option value="reinhard" { "Reinhard" }
                         } } }
-                        p.soft { "In difference and z, orange is too bright and blue too dark. z takes in 5 × 5 pixels. Magenta is no number." }
+                        p.soft { "Difference and z: orange is too bright, blue too dark. z: difference in standard errors, over 5 × 5 pixels. \
+                            Magenta: NaN or infinity." }
                     }
                     pre.probe aria-live="polite" {}
-                    p.soft.again { label { "This pixel's sample " input type="number" name="sample" min="1" max=(count) value="1"; } " again:" }
+                    p.soft.again { label { "Replay sample " input type="number" name="sample" min="1" max=(count) value="1"; } " of this pixel:" }
                     pre.replay tabindex="0" {}
                 }
             }

@@ -1,4 +1,4 @@
-//! Pictures as a file, so that a page can be made again, with new marks, without rendering.
+//! Pictures as a file, so that a page can be made again with new points of a tutor, without rendering.
 
 use std::io::{Read, Write};
 use std::path::Path;
@@ -10,7 +10,7 @@ use flate2::write::ZlibEncoder;
 use verdict::error::{Error, Result};
 use verdict::pictures::Picture;
 
-/// The most bytes that are read: pictures take two megabytes.
+/// Maximum number of bytes that are read: pictures take two megabytes.
 const LARGEST: u64 = 64 << 20;
 
 /// Writes pictures.
@@ -19,11 +19,12 @@ const LARGEST: u64 = 64 << 20;
 /// If the file cannot be written.
 pub fn save(pictures: &[Picture], path: &Path) -> Result<()> {
     let bytes = postcard::to_stdvec(pictures).map_err(|error| Error::file(path, error))?;
-    Ok(arty::image::write_aside(path, |file| {
+    arty::image::write_aside(path, |file| {
         let mut encoder = ZlibEncoder::new(file, Compression::fast());
         encoder.write_all(&bytes)?;
         encoder.finish().map(|_| ())
-    })?)
+    })
+    .map_err(|error| Error::Output(error.to_string()))
 }
 
 /// Reads what [`save`] has written; `None` if it is not there or another version's.

@@ -1,4 +1,4 @@
-//! A small picture of a hand-in, for the page of its class.
+//! A small picture of a submission, for the page of its class.
 
 use arty::integrator::Technique;
 use arty::srgb::linear_to_srgb_u8;
@@ -14,7 +14,7 @@ pub(super) const SCENE: &str = "cornell_box";
 /// Columns.
 const WIDTH: usize = 80;
 
-/// What stands for a pixel that is no number, so that nobody takes it for a dark one: magenta.
+/// What stands for NaN and infinity, which would look like a dark or a bright pixel: magenta.
 const NOT_A_NUMBER: [u8; 3] = [255, 0, 255];
 
 /// A small PNG of what multiple importance sampling gives; `None` if there is no such picture.
@@ -45,11 +45,14 @@ pub fn thumbnail(pictures: &[Picture]) -> Option<Vec<u8>> {
     png(&pixels, width, height)
 }
 
-/// Radiance as a PNG, cut off at the display's black and white; `None` if there are no pixels.
+/// Radiance as a PNG, clipped at the display's black and white; `None` if there are no pixels.
 pub fn png(pixels: &[[f64; 3]], width: usize, height: usize) -> Option<Vec<u8>> {
     let shown = |pixel: &[f64; 3]| {
-        let is_number = pixel.iter().all(|value| !value.is_nan());
-        if is_number { pixel.map(|value| linear_to_srgb_u8(value as f32)) } else { NOT_A_NUMBER }
+        if pixel.iter().all(|value| value.is_finite()) {
+            pixel.map(|value| linear_to_srgb_u8(value as f32))
+        } else {
+            NOT_A_NUMBER
+        }
     };
     let bytes: Vec<u8> = pixels.iter().flat_map(shown).collect();
     let mut png = Vec::new();

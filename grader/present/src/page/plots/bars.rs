@@ -20,13 +20,13 @@ pub struct Bars<'a> {
 
 /// Draws a histogram; `None` if there is nothing to draw.
 pub fn bars(histogram: &Bars<'_>) -> Option<String> {
-    let most = histogram.counts.iter().copied().max().filter(|&most| most > 0)?;
-    svg(histogram.label, |area| draw(histogram, most as f64, area).ok())
+    let max = histogram.counts.iter().copied().max().filter(|&max| max > 0)?;
+    svg(histogram.label, |area| draw(histogram, max as f64, area).ok())
 }
 
-fn draw<'a>(histogram: &Bars<'_>, most: f64, area: &super::Area<'a>) -> Result<(), Failure<'a>> {
+fn draw<'a>(histogram: &Bars<'_>, max: f64, area: &super::Area<'a>) -> Result<(), Failure<'a>> {
     let &Bars { axis, range, counts, expected, .. } = histogram;
-    let top = 1.1 * expected.map_or(most, |(_, [_, high])| most.max(high));
+    let top = 1.1 * expected.map_or(max, |(_, [_, high])| max.max(high));
     let mut chart = super::chart(area, 44, range.0..range.1, 0.0..top)?;
     chart
         .configure_mesh()

@@ -1,28 +1,28 @@
-//! How many times light counts that is scattered k times, in a furnace.
+//! Energy per bounce in a white furnace.
 
 use plotters::prelude::*;
 
 use super::{Failure, GRID, INK, SUBMISSION, font, svg};
-use verdict::report::CheckResult;
+use verdict::check::{BounceEnergy, FurnaceTest};
 
-/// Draws the coefficients of a furnace with their intervals; `None` if the check has fewer than two.
-pub(crate) fn furnace(check: &CheckResult) -> Option<String> {
-    if check.coefficients.len() < 2 || check.coefficients.iter().any(|c| !c.is_finite()) {
+/// Draws the energy of each bounce with its interval; `None` if there are fewer than two.
+pub(crate) fn furnace(test: &FurnaceTest) -> Option<String> {
+    if test.energy.len() < 2 || !test.energy.iter().all(BounceEnergy::is_finite) {
         return None;
     }
-    svg("coefficients of a furnace", |area| draw(check, area).ok())
+    svg("energy per bounce relative to exact", |area| draw(&test.energy, area).ok())
 }
 
-fn draw<'a>(check: &CheckResult, area: &super::Area<'a>) -> Result<(), Failure<'a>> {
-    let margin = |k: usize| check.coefficient_margins.get(k).copied().unwrap_or(0.0);
-    let seen: Vec<(f64, f64, f64)> =
-        check.coefficients.iter().enumerate().map(|(k, &c)| (k as f64, c, margin(k))).collect();
+fn draw<'a>(energy: &[BounceEnergy], area: &super::Area<'a>) -> Result<(), Failure<'a>> {
+    let point =
+        |(k, bounce): (usize, &BounceEnergy)| (k as f64, bounce.relative, bounce.margin.unwrap_or(0.0));
+    let seen: Vec<(f64, f64, f64)> = energy.iter().enumerate().map(point).collect();
     // At least a tenth on either side, so that a hair's breadth does not look like a fault.
-    let least = seen.iter().map(|(_, c, margin)| c - margin).fold(0.9, f64::min);
-    let most = seen.iter().map(|(_, c, margin)| c + margin).fold(1.1, f64::max);
-    let room = 0.08 * (most - least);
+    let min = seen.iter().map(|(_, c, margin)| c - margin).fold(0.9, f64::min);
+    let max = seen.iter().map(|(_, c, margin)| c + margin).fold(1.1, f64::max);
+    let room = 0.08 * (max - min);
     let last = (seen.len() - 1) as f64;
-    let mut chart = super::chart(area, 52, -0.4..last + 0.4, least - room..most + room)?;
+    let mut chart = super::chart(area, 52, -0.4..last + 0.4, min - room..max + room)?;
     let whole = |k: &f64| if (k - k.round()).abs() < 1e-6 { format!("{k:.0}") } else { String::new() };
     chart
         .configure_mesh()
@@ -34,8 +34,8 @@ fn draw<'a>(check: &CheckResult, area: &super::Area<'a>) -> Result<(), Failure<'
         .x_label_formatter(&whole)
         .y_label_formatter(&|c| format!("{c:.2}"))
         .y_labels(6)
-        .x_desc("scattered k times")
-        .y_desc("counted so many times")
+        .x_desc("bounces")
+        .y_desc("energy / exact")
         .label_style(font(12))
         .axis_desc_style(font(13))
         .draw()?;

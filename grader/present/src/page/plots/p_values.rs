@@ -1,9 +1,9 @@
-//! All tiles of all pictures that were judged: how likely would each one's difference be, were there no bias?
+//! p-values of all tiles of all pictures that were judged.
 
 use statrs::function::erf::erfc;
 
 use super::{Bars, bars};
-use verdict::report::{CheckResult, Verdict};
+use verdict::check::{CheckResult, Verdict};
 
 /// Bars between 0 and 1.
 const COUNT: usize = 20;
@@ -12,23 +12,22 @@ const COUNT: usize = 20;
 pub(crate) struct PValues {
     /// The plot.
     pub(crate) plot: String,
-    /// How many tiles it is of.
+    /// Number of tiles.
     pub(crate) tiles: usize,
-    /// How many pictures these are of.
+    /// Number of pictures that they are from.
     pub(crate) pictures: usize,
-    /// The share of them in the first bar, that of the most unlikely.
+    /// Share of them in the first bar: p < 0.05.
     pub(crate) unlikely: f64,
 }
 
 /// The histogram of the checks' kept normal deviates, of checks that passed (`passed`) or of the others; `None` without
 /// any. Tiles in which nothing varies and nothing differs have no p-value.
 pub(crate) fn p_values(checks: &[CheckResult], passed: bool) -> Option<PValues> {
-    let chosen: Vec<&CheckResult> = checks
-        .iter()
-        .filter(|check| (check.verdict == Verdict::Pass) == passed && check.z.iter().any(|&z| z != 0.0))
-        .collect();
+    let of_verdict = checks.iter().filter(|check| (check.verdict == Verdict::Pass) == passed);
+    let deviates = of_verdict.filter_map(|check| Some(check.mean_test()?.z.as_slice()));
+    let chosen: Vec<&[f64]> = deviates.filter(|z| z.iter().any(|&z| z != 0.0)).collect();
     let mut counts = [0; COUNT];
-    for z in chosen.iter().flat_map(|check| &check.z).filter(|z| **z != 0.0 && z.is_finite()) {
+    for z in chosen.iter().copied().flatten().filter(|z| **z != 0.0 && z.is_finite()) {
         let p = erfc(z.abs() / std::f64::consts::SQRT_2);
         counts[((p * COUNT as f64) as usize).min(COUNT - 1)] += 1;
     }
@@ -49,7 +48,8 @@ pub(crate) fn p_values(checks: &[CheckResult], passed: bool) -> Option<PValues> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use verdict::sample::report;
+    use verdict::check::{Evidence, MeanTest};
+    use verdict::sample::{mean_test, report};
 
     #[test]
     fn deviates_of_no_bias_are_spread_evenly_and_others_are_not() {
@@ -58,13 +58,18 @@ mod tests {
         // z whose p-values are 0.025, 0.075, … by their quantiles.
         use statrs::distribution::{ContinuousCDF, Normal};
         let normal = Normal::standard();
-        check.z = (0..40).map(|i| normal.inverse_cdf((f64::from(i) + 0.5) / 40.0)).collect();
+        let with = |check: &mut CheckResult, z| {
+            check.evidence = Some(Evidence::MeanBias(MeanTest { z, ..mean_test() }));
+        };
+        let mut z: Vec<f64> = (0..40).map(|i| normal.inverse_cdf((f64::from(i) + 0.5) / 40.0)).collect();
+        with(&mut check, z.clone());
         let even = p_values(&[check.clone()], true).expect("there are some");
         assert_eq!((even.tiles, even.pictures), (40, 1));
         assert!((even.unlikely - 0.05).abs() < 1e-9, "{}", even.unlikely);
-        check.z.iter_mut().for_each(|z| *z += 4.0);
+        z.iter_mut().for_each(|z| *z += 4.0);
+        with(&mut check, z);
         assert!(p_values(&[check.clone()], true).expect("there are some").unlikely > 0.8);
-        check.z = vec![0.0; 64];
+        with(&mut check, vec![0.0; 64]);
         assert!(p_values(&[check], true).is_none(), "nothing varies");
     }
 }

@@ -1,30 +1,30 @@
-//! The weights that a hand-in gives, beside those of the balance heuristic.
+//! The MIS weights of a submission, beside those of the balance heuristic.
 
 use plotters::prelude::*;
 
 use super::{Failure, GRID, INK, SUBMISSION, font, svg};
 use crate::convergence::OTHER;
-use verdict::report::Weights;
+use verdict::check::MeasuredWeights;
 
 /// Draws both weights over the ratio of the densities; `None` if none was measured.
-pub(crate) fn weights(weights: &Weights) -> Option<String> {
-    if weights.measured.is_empty() {
+pub(crate) fn weights(weights: &MeasuredWeights) -> Option<String> {
+    if weights.points.is_empty() {
         return None;
     }
-    svg("weights over the ratio of densities", |area| draw(weights, area).ok())
+    svg("MIS weights over the ratio of the densities", |area| draw(weights, area).ok())
 }
 
-fn draw<'a>(weights: &Weights, area: &super::Area<'a>) -> Result<(), Failure<'a>> {
-    let measured: Vec<[f64; 3]> = weights.measured.iter().map(|point| point.map(f64::from)).collect();
-    let (mut least, mut most) = (-1.0f64, 1.0f64);
+fn draw<'a>(weights: &MeasuredWeights, area: &super::Area<'a>) -> Result<(), Failure<'a>> {
+    let measured: Vec<[f64; 3]> = weights.points.iter().map(|point| point.map(f64::from)).collect();
+    let (mut min, mut max) = (-1.0f64, 1.0f64);
     let (mut low, mut high) = (0.0f64, 1.0f64);
     for [ratio, light, bsdf] in &measured {
-        (least, most) = (least.min(*ratio), most.max(*ratio));
-        // A weight of 1000 would make a line of all others; it lies at the edge.
+        (min, max) = (min.min(*ratio), max.max(*ratio));
+        // A weight of 1000 would flatten all others; it is drawn at the edge.
         (low, high) = (low.min(light.min(*bsdf)).max(-1.0), high.max(light.max(*bsdf)).min(3.0));
     }
     let room = 0.06 * (high - low);
-    let mut chart = super::chart(area, 48, least - 0.1..most + 0.1, low - room..high + room)?;
+    let mut chart = super::chart(area, 48, min - 0.1..max + 0.1, low - room..high + room)?;
     chart
         .configure_mesh()
         .disable_x_mesh()
@@ -41,7 +41,7 @@ fn draw<'a>(weights: &Weights, area: &super::Area<'a>) -> Result<(), Failure<'a>
         .axis_desc_style(font(13))
         .draw()?;
     let balance = |rising: bool| {
-        let steps = (0..=120).map(move |i| least + (most - least) * f64::from(i) / 120.0);
+        let steps = (0..=120).map(move |i| min + (max - min) * f64::from(i) / 120.0);
         steps.map(move |exponent| {
             let light = 1.0 / (1.0 + 10.0_f64.powf(-exponent));
             (exponent, if rising { light } else { 1.0 - light })

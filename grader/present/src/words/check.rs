@@ -1,0 +1,213 @@
+//! Checks: what each kind asks, and what it found.
+
+use arty::integrator::Technique;
+
+use verdict::check::{
+    CheckKind, CheckResult, Evidence, LightShares, Noise, PixelGroup, RandomNumbers, RayCounts, TooManyRays,
+    Verdict,
+};
+
+use super::command::{replay_command, replay_of_finding};
+use super::number::{count, list, percent, trimmed};
+use super::{fault, means, numerics, skipped, stability, weights};
+
+/// Why a check ended as it did: one sentence without a full stop. Empty only if nothing is known.
+pub fn explanation(check: &CheckResult) -> String {
+    match &check.verdict {
+        Verdict::Skipped { why } => return skipped::skipped(why),
+        Verdict::NotRun { why } => return skipped::not_run(*why),
+        Verdict::Pass | Verdict::Fail | Verdict::Inconclusive => {}
+    }
+    let text = what_happened(check);
+    if check.short_look && check.verdict == Verdict::Inconclusive {
+        format!("{text}; stopped early because a required check failed")
+    } else {
+        text
+    }
+}
+
+fn what_happened(check: &CheckResult) -> String {
+    if let Some(fault) = &check.fault {
+        return fault::fault(fault);
+    }
+    let measured = check.evidence.as_ref().map_or_else(String::new, |it| of_evidence(it, check));
+    // Bad samples of a picture decide, whatever its mean; the other kinds say themselves where they met them.
+    let of_picture = check.evidence.is_none() || check.mean_test().is_some();
+    if of_picture && !check.numerics.is_clean() { numerics(&check.numerics) } else { measured }
+}
+
+fn of_evidence(evidence: &Evidence, check: &CheckResult) -> String {
+    let verdict = &check.verdict;
+    match evidence {
+        Evidence::ClosedForm(test) | Evidence::MeanBias(test) => means::mean(test, verdict),
+        Evidence::HiddenVariants(test) => means::variant(test, verdict),
+        Evidence::Metamorphic(test) => means::change(test, verdict),
+        Evidence::WhiteFurnace(test) => means::furnace(test, verdict),
+        Evidence::Efficiency(noise) => efficiency(noise, check.id.technique, verdict),
+        Evidence::LightPick(shares) => light_pick(shares),
+        Evidence::MisWeights(test) => weights::weights(test),
+        Evidence::Randomness(numbers) => randomness(*numbers),
+        Evidence::RayBudget(rays) => ray_budget(rays),
+        Evidence::Stability(test) => stability::stability(test, verdict),
+    }
+}
+
+fn efficiency(noise: &Noise, technique: Technique, verdict: &Verdict) -> String {
+    let Some(own) = noise.ratios.first() else {
+        return "the image has no noise at all: every sample is the same".to_owned();
+    };
+    let factor = trimmed(own.ratio, if own.ratio < 10.0 { 2 } else { 0 });
+    let text = format!("{factor} times the variance of the solution with `{technique}`");
+    if *verdict == Verdict::Pass {
+        return text;
+    }
+    match noise.as_noisy_as {
+        Some(Technique::Bsdf) => format!("{text}, as much as BSDF sampling: light samples do not reduce it"),
+        Some(Technique::Nee) => {
+            format!("{text}, as much as next event estimation: lights that are hit do not reduce it")
+        }
+        Some(Technique::Mis) => format!("{text}, as much as multiple importance sampling"),
+        None => text,
+    }
+}
+
+/// Factors that differ by less, relatively, are the same.
+const ALIKE: f64 = 0.01;
+
+fn light_pick(shares: &LightShares) -> String {
+    let Some(wrong) = shares.wrong else {
+        return "each of three lights contributes what it should".to_owned();
+    };
+    let number = wrong + 1;
+    let Some(excess) = shares.excess.get(wrong as usize).copied().flatten() else {
+        return format!("light {number} of 3 contributes NaN or infinity");
+    };
+    let factor = 1.0 + excess;
+    let of_should = percent(factor, if excess.abs() < 0.05 { 2 } else { 0 });
+    let is = |other: f64, factor: f64| (other / factor - 1.0).abs() < ALIKE;
+    if shares.excess.iter().all(|other| other.is_some_and(|other| is(1.0 + other, factor))) {
+        let why = if is(factor, 1.0 / 3.0) { ": divide by the selection probability" } else { "" };
+        return format!("each of three lights contributes {of_should} of what it should{why}");
+    }
+    format!(
+        "light {number} of 3 contributes {of_should} of what it should: the selection probability you divide by is not \
+         the one you sample with"
+    )
+}
+
+fn randomness(numbers: RandomNumbers) -> String {
+    match numbers {
+        RandomNumbers::Independent => "pixels, batches and seeds are independent and repeatable".to_owned(),
+        RandomNumbers::SameImage([first, second]) => format!(
+            "different seeds give the same image (batches {first} and {second}): the random numbers do not come from the \
+             sampler"
+        ),
+        RandomNumbers::NotRepeatable => {
+            "the same seed does not give the same image twice: either the random numbers do \
+            not come from the sampler, or state is kept from one path to the next"
+                .to_owned()
+        }
+        RandomNumbers::SharedByPixels { excess, pixels } => {
+            let sums = match pixels {
+                PixelGroup::Image => "the sum over the image has",
+                PixelGroup::Row => "sums over rows have",
+                PixelGroup::Column => "sums over columns have",
+                PixelGroup::Tile => "sums over tiles of 4 × 4 pixels have",
+            };
+            let excess = trimmed(excess, 1);
+            format!("pixels share random numbers: {sums} {excess} times the variance of independent pixels")
+        }
+    }
+}
+
+fn ray_budget(rays: &RayCounts) -> String {
+    let Some(TooManyRays { bounces, shadow_rays, rays: all, allowed }) = rays.excess else {
+        return "at most one shadow ray per bounce".to_owned();
+    };
+    let room = format!("in a room with {}", count(rays.lights as usize, "light"));
+    let bounces_of = count(bounces as usize, "bounce");
+    if shadow_rays > bounces {
+        let shadow_rays = count(shadow_rays as usize, "shadow ray");
+        return format!("{shadow_rays} on a path of {bounces_of}, {room}: the sheet asks for one per bounce");
+    }
+    let (all, allowed) = (count(all as usize, "ray"), count(allowed as usize, "ray"));
+    format!(
+        "{all} on a path of {bounces_of}, {room}: {allowed} are enough, even if shadow rays and BSDF samples are traced \
+         separately"
+    )
+}
+
+/// What costs no points, but is worth knowing.
+pub fn remarks(check: &CheckResult) -> Vec<String> {
+    match &check.evidence {
+        Some(Evidence::Stability(test)) => stability::remarks(test).map(|(remark, _)| remark).collect(),
+        Some(Evidence::Efficiency(noise)) if noise.is_noisier && check.verdict == Verdict::Pass => {
+            let Some(own) = noise.ratios.first() else { return Vec::new() };
+            vec![format!(
+                "right, but with {} times the variance of the solution at the same number of samples",
+                trimmed(own.ratio, 1)
+            )]
+        }
+        Some(Evidence::RayBudget(rays)) => {
+            let mut remarks = Vec::new();
+            if rays.shadow_rays_at_mirrors {
+                remarks.push(
+                    "shadow rays are traced at perfect mirrors, which reflect no light sample".to_owned(),
+                );
+            }
+            if rays.shadow_rays_without_lights {
+                remarks.push("shadow rays are traced in a scene without lights".to_owned());
+            }
+            remarks
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// The same, each with the command that follows the path that shows it, where there is one.
+pub fn remarks_with_replay(check: &CheckResult, submission: &str) -> Vec<String> {
+    let Some(Evidence::Stability(test)) = &check.evidence else { return remarks(check) };
+    let with_replay = |(remark, finding)| match replay_of_finding(finding) {
+        Some(target) => format!("{remark}; replay: {}", replay_command(target, submission)),
+        None => remark,
+    };
+    stability::remarks(test).map(with_replay).collect()
+}
+
+/// Variance relative to that of the solution's techniques: "bsdf 0.12, nee 1.03"; empty where it was not measured.
+pub(crate) fn variances(noise: &Noise) -> String {
+    let parts: Vec<String> =
+        noise.ratios.iter().map(|of| format!("{} {}", of.technique, trimmed(of.ratio, 2))).collect();
+    list(&parts)
+}
+
+/// What a check does; continues "This check".
+pub fn about(kind: CheckKind) -> &'static str {
+    match kind {
+        CheckKind::ClosedForm => "compares each pixel with a closed form, without a reference image",
+        CheckKind::Efficiency => {
+            "compares the variance with the solution's: means alone cannot tell whether a technique is used"
+        }
+        CheckKind::HiddenVariants => {
+            "compares means with the solution's in scenes drawn at random for each seed"
+        }
+        CheckKind::LightPick => {
+            "compares how often each light is selected with the probability you divide by"
+        }
+        CheckKind::MeanBias => "compares means of image regions with the reference: it tests bias, not noise",
+        CheckKind::Metamorphic => {
+            "changes the scene in ways whose effect on the image is known, such as rotating it"
+        }
+        CheckKind::MisWeights => {
+            "measures single MIS weights in scenes where only one technique finds the light"
+        }
+        CheckKind::Randomness => {
+            "compares renderings with each other: each random number must come from the sampler and be used once"
+        }
+        CheckKind::RayBudget => "counts the rays of each path",
+        CheckKind::Stability => "tests very small and very large scenes, radiances and densities",
+        CheckKind::WhiteFurnace => {
+            "renders a closed surface that emits uniformly, where the energy of each bounce is known"
+        }
+    }
+}
