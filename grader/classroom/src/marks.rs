@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use verdict::error::{Error, Result};
-use verdict::report::Report;
+use verdict::report::{Report, TaskState};
 use verdict::rubric::Rubric;
 
 /// The points that a person gave one hand-in for one task.
@@ -75,12 +75,12 @@ impl Marks {
         for task in &mut report.tasks {
             if let Some(mark) = self.find(&report.submission.hash, &task.id) {
                 task.points = Some(mark.points);
-                task.reason.clone_from(&mark.comment);
+                task.state = TaskState::ByHand { comment: Some(mark.comment.clone()) };
             }
         }
         let marked = self.of(&report.submission.hash);
         let (sum, count) = marked.fold((0.0, 0), |(sum, count), mark| (sum + mark.points, count + 1));
-        report.points.marked = (count > 0).then_some(sum);
+        report.points.manual = (count > 0).then_some(sum);
     }
 }
 

@@ -12,6 +12,7 @@ use crate::marks::Marks;
 use crate::policy::{Lateness, Policy, Receipt, Standing};
 use crate::table::{Table, no_formula};
 use verdict::error::Result;
+use verdict::report::Provenance;
 use verdict::submission::IntakeFinding;
 
 /// The version of the format of `class.json`.
@@ -246,7 +247,7 @@ struct ClassFile<'a> {
     schema: &'a str,
     assignment: &'a str,
     automatic_max: f64,
-    provenance: &'a BTreeMap<String, String>,
+    provenance: &'a Provenance,
     rows: &'a [Row],
     similar: &'a [Group],
 }
@@ -258,7 +259,7 @@ struct ClassFile<'a> {
 pub fn save_class(
     path: &Path,
     assignment: (&str, f64),
-    provenance: &BTreeMap<String, String>,
+    provenance: &Provenance,
     rows: &[Row],
     similar: &[Group],
 ) -> Result<()> {

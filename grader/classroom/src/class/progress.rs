@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
-use verdict::report::{CheckResult, Verdict};
+use verdict::check::{CheckResult, Verdict};
 
 /// A live table on a terminal, a line for each hand-in elsewhere.
 pub(super) struct Progress {

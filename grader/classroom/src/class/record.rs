@@ -9,8 +9,9 @@ use serde::{Deserialize, Serialize};
 use intake::HandIn;
 use present::page::{pages_beside, pictures_beside};
 use verdict::error::{Error, Result};
-use verdict::report::{CheckResult, Reason, Report, Verdict};
-use verdict::rubric::CheckKind;
+use present::words;
+use verdict::check::{CheckKind, CheckResult, Evidence, Reason, Verdict};
+use verdict::report::Report;
 use verdict::submission::{Explanation, IntakeFinding};
 
 /// The version of the format.
@@ -77,7 +78,7 @@ impl Record {
                 report
                     .checks
                     .iter()
-                    .map(|check| (format!("{} {}", check.task, check.id), check.verdict))
+                    .map(|check| (format!("{} {}", check.task, check.id), check.verdict.clone()))
                     .collect()
             }),
             earned: report.map_or(0.0, |report| report.points.earned),
@@ -86,7 +87,7 @@ impl Record {
             source: report.map_or_else(String::new, |report| report.submission.hash.clone()),
             graded_at: jiff::Timestamp::now().strftime("%FT%TZ").to_string(),
             seconds: report.map_or(0.0, |report| report.cost.build + report.cost.run),
-            mistake: report.and_then(|report| report.diagnosis.first()).map(|cause| cause.title.clone()),
+            mistake: report.and_then(|report| report.diagnosis.first()).map(|it| words::title(&it.cause)),
             work: report.and_then(work),
             report: String::new(),
         }
@@ -96,10 +97,10 @@ impl Record {
 /// See [`Record::work`].
 fn work(report: &Report) -> Option<f64> {
     let looked_at = |check: &&CheckResult| {
-        check.check == CheckKind::Efficiency && check.technique == Technique::Mis && check.samples > 0
+        check.id.kind == CheckKind::Efficiency && check.id.technique == Technique::Mis && check.samples > 0
     };
     // What leaves light out has little noise.
-    if report.checks.iter().any(|check| check.technique == Technique::Mis && check.verdict == Verdict::Fail) {
+    if report.checks.iter().any(|check| check.id.technique == Technique::Mis && check.verdict == Verdict::Fail) {
         return None;
     }
     let logs: Vec<f64> = report
@@ -107,7 +108,8 @@ fn work(report: &Report) -> Option<f64> {
         .iter()
         .filter(looked_at)
         .map(|check| {
-            let own = check.variance_ratios.iter().find(|it| it.technique == check.technique)?;
+            let Some(Evidence::Efficiency(noise)) = &check.evidence else { return None };
+            let own = noise.ratios.iter().find(|it| it.technique == check.id.technique)?;
             let work = own.ratio * check.seconds / check.samples as f64;
             (check.verdict == Verdict::Pass && work > 0.0).then(|| work.ln())
         })
@@ -132,7 +134,7 @@ fn reason(report: &Report) -> Option<IntakeFinding> {
     };
     report.checks.iter().find_map(|check| {
         let code = code(check.reason)?.to_owned();
-        Some(IntakeFinding { code, message: format!("{}: {}", check.id, check.explanation) })
+        Some(IntakeFinding { code, message: format!("{}: {}", check.id, words::explanation(check)) })
     })
 }
 

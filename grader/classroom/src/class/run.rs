@@ -24,6 +24,7 @@ use intake::{self, HandIn};
 use judge::grade::{Grader, Options};
 use judge::reference::Oracle;
 use verdict::error::{Error, Result};
+use verdict::report::Provenance;
 use verdict::submission::IntakeFinding;
 
 /// How a class is graded.
@@ -54,7 +55,7 @@ pub struct Outcome {
     /// How many were as they were.
     pub unchanged: usize,
     /// What all verdicts rest on.
-    pub provenance: BTreeMap<String, String>,
+    pub provenance: Provenance,
 }
 
 /// All that workers share.
@@ -323,9 +324,9 @@ impl Shared<'_> {
 /// no verdict.
 fn hash_of_inputs(workspace: &Workspace, grader: &Grader, options: &Options) -> Result<blake3::Hash> {
     let mut hasher = blake3::Hasher::new();
-    for (name, value) in grader.provenance().iter().filter(|(name, _)| *name != "rubric") {
-        hasher.update(format!("{name}={value}\n").as_bytes());
-    }
+    // The rubric's tasks are named below: its policy changes no verdict.
+    let provenance = Provenance { rubric: String::new(), ..grader.provenance().clone() };
+    hasher.update(format!("{provenance:?}").as_bytes());
     hasher.update(format!("{:?} {:?}", grader.rubric().tasks, options.only).as_bytes());
     hasher.update(format!("{:?}", grader.oracle().map(Oracle::hash)).as_bytes());
     hash_judging(workspace, &mut hasher)?;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::class::gradebook::{Row, State};
 use crate::class::record::{Record, Shelf};
-use verdict::report::Verdict;
+use verdict::check::Verdict;
 
 /// What is kept of one hand-in.
 #[derive(Clone, Copy, Debug, Default)]
@@ -62,7 +62,7 @@ impl Digests {
             if let Some(record) = &record {
                 digest.seconds = Some(record.seconds);
                 digest.work = record.work;
-                let run = record.checks.iter().filter(|(_, verdict)| **verdict != Verdict::LeftOut);
+                let run = record.checks.iter().filter(|(_, verdict)| !matches!(verdict, Verdict::Skipped { .. }));
                 for (check, verdict) in run {
                     let rate = digests.checks.entry(check.clone()).or_default();
                     rate.run += 1;
@@ -92,8 +92,8 @@ fn shared(record: &Record) -> Option<(bool, String)> {
     if let Some(reason) = record.reason.as_ref().filter(|_| record.checks.is_empty()) {
         return Some((false, reason.message.clone()));
     }
-    let lacking = |verdict: Verdict| !matches!(verdict, Verdict::Pass | Verdict::LeftOut);
-    let failed = record.checks.iter().filter(|(_, verdict)| lacking(**verdict));
+    let lacking = |verdict: &Verdict| !matches!(verdict, Verdict::Pass | Verdict::Skipped { .. });
+    let failed = record.checks.iter().filter(|(_, verdict)| lacking(verdict));
     let failed: Vec<&str> = failed.map(|(check, _)| check.as_str()).collect();
     (!failed.is_empty()).then(|| (false, failed.join(", ")))
 }
