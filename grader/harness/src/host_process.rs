@@ -235,7 +235,9 @@ impl HostProcess {
         let answer = self.answer(time.min(left), self.job_time.min(left));
         self.all_jobs = Some([all, left.saturating_sub(start.elapsed())]);
         answer.map_err(|error| match error {
-            JobError::Submission(Fault::Timeout(_)) if left < time => Fault::Timeout(all.as_secs_f64()).into(),
+            JobError::Submission(Fault::Timeout(_)) if left < time => {
+                Fault::Timeout(all.as_secs_f64()).into()
+            }
             error => error,
         })
     }

@@ -7,10 +7,12 @@ use std::time::Duration;
 
 use arty::integrator::{Settings, Technique};
 use harness::build::{Framework, compile};
-use harness::host_process::{Fault, HostProcess};
+use harness::host_process::HostProcess;
+use harness::job::JobError;
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
-use host::protocol::{RenderJob, Switches};
+use host::protocol::RenderJob;
+use verdict::check::Fault;
 
 const ENDLESS: &str = "use arty::prelude::*;
 pub struct PathTracer;
@@ -42,17 +44,9 @@ fn a_process_that_is_ended_is_at_fault_unless_the_kernel_had_no_memory_left() {
     let scene =
         arty::scene::file::load(&workspace.scene_file("point_plane")).expect("it is there").description;
     let mut process = HostProcess::start(&program, 1).expect("the program starts");
-    let scene = process.load(&scene).expect("the pipe holds").expect("the scene loads");
-    let job = RenderJob {
-        scene,
-        settings: Settings { technique: Technique::Nee, max_bounces: 1 },
-        width: 16,
-        height: 16,
-        seeds: vec![1],
-        first_sample: 0,
-        samples: 16,
-        switches: Switches::default(),
-    };
+    let scene = process.load(&scene).expect("the scene loads");
+    let settings = Settings { technique: Technique::Nee, max_bounces: 1 };
+    let job = RenderJob::new(scene, settings, [16, 16], vec![1], 16);
     let [child] = children()[..] else { panic!("{:?}", children()) };
     let killer = std::thread::spawn(move || {
         std::thread::sleep(Duration::from_millis(300));
@@ -61,5 +55,8 @@ fn a_process_that_is_ended_is_at_fault_unless_the_kernel_had_no_memory_left() {
     });
     let outcome = process.render(&job);
     killer.join().expect("it was killed");
-    assert!(matches!(&outcome, Ok(Err(Fault::Crash(how))) if how.contains("signal: 9")), "{outcome:?}");
+    assert!(
+        matches!(&outcome, Err(JobError::Submission(Fault::Crash(how))) if how.contains("signal: 9")),
+        "{outcome:?}"
+    );
 }

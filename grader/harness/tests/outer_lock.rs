@@ -8,10 +8,12 @@ use std::os::unix::fs::MetadataExt;
 use arty::integrator::{Settings, Technique};
 use arty::scene::SceneDescription;
 use harness::build::{Framework, HandInProgram, compile, differences};
-use harness::host_process::{Fault, HostProcess};
+use harness::host_process::HostProcess;
+use harness::job::apart;
 use harness::sandbox::{Layers, Level, Limits, Machine};
 use harness::workspace::Workspace;
-use host::protocol::{RenderJob, Switches};
+use host::protocol::RenderJob;
+use verdict::check::Fault;
 
 struct Here {
     workspace: Workspace,
@@ -43,19 +45,10 @@ impl Here {
     fn run(&self, program: &HandInProgram) -> (Option<Fault>, Layers) {
         let mut process = HostProcess::start(program, 1).expect("no hand-in makes the harness fail");
         let layers = process.layers();
-        let job = RenderJob {
-            scene: 0,
-            settings: Settings { technique: Technique::Nee, max_bounces: 1 },
-            width: 4,
-            height: 4,
-            seeds: vec![1],
-            first_sample: 0,
-            samples: 1,
-            switches: Switches::default(),
-        };
-        let outcome = process.load(&self.scene).expect("no hand-in makes the harness fail");
-        let outcome = outcome.and_then(|_| process.render(&job).expect("no hand-in makes the harness fail"));
-        (outcome.err(), layers)
+        let settings = Settings { technique: Technique::Nee, max_bounces: 1 };
+        let job = RenderJob::new(0, settings, [4, 4], vec![1], 1);
+        let outcome = process.load(&self.scene).and_then(|_| process.render(&job));
+        (apart(outcome).expect("no submission makes the harness fail").err(), layers)
     }
 }
 

@@ -5,10 +5,12 @@ use std::time::Duration;
 
 use arty::integrator::{Settings, Technique};
 use harness::build::{Framework, compile};
-use harness::host_process::{Fault, HostProcess};
+use harness::host_process::HostProcess;
+use harness::job::apart;
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
-use host::protocol::{RenderJob, Switches};
+use host::protocol::RenderJob;
+use verdict::check::Fault;
 
 #[test]
 fn nobody_waits_to_the_end_for_a_hand_in_that_is_too_slow_by_far_unless_it_had_no_time() {
@@ -32,18 +34,10 @@ fn nobody_waits_to_the_end_for_a_hand_in_that_is_too_slow_by_far_unless_it_had_n
         let program = compile(&framework, &source, &limits).expect("rustc runs").expect("it compiles");
         let process = HostProcess::start(&program, 1).expect("the program starts");
         let mut process = process.within(limits.job_time);
-        let scene = process.load(&scene.description).expect("the pipe holds").expect("the scene loads");
-        let job = |seeds: std::ops::Range<u64>| RenderJob {
-            scene,
-            settings: Settings { technique: Technique::Nee, max_bounces: 1 },
-            width: 1,
-            height: 1,
-            seeds: seeds.collect(),
-            first_sample: 0,
-            samples: 1,
-            switches: Switches::default(),
-        };
-        [0..16, 5..6, 16..32].map(|seeds| process.render(&job(seeds)).expect("the pipe holds"))
+        let scene = process.load(&scene.description).expect("the scene loads");
+        let settings = Settings { technique: Technique::Nee, max_bounces: 1 };
+        let job = |seeds: std::ops::Range<u64>| RenderJob::new(scene, settings, [1, 1], seeds.collect(), 1);
+        [0..16, 5..6, 16..32].map(|seeds| apart(process.render(&job(seeds))).expect("the pipe holds"))
     };
     let work = |milliseconds: u64| {
         format!(
@@ -56,7 +50,7 @@ fn nobody_waits_to_the_end_for_a_hand_in_that_is_too_slow_by_far_unless_it_had_n
     // Rendering in two parts changes nothing.
     assert_eq!((whole.batches.len(), &whole.batches[5]), (16, &sixth.batches[0]));
 
-    let too_slow = Err(Fault::TooSlow(Duration::from_millis(500)));
+    let too_slow = Err(Fault::TooSlow(0.5));
     assert_eq!(render(&work(400))[0], too_slow);
     // Slower from the 18th sample on: that is no longer tried first, since it went well before.
     let later = format!(
@@ -64,13 +58,13 @@ fn nobody_waits_to_the_end_for_a_hand_in_that_is_too_slow_by_far_unless_it_had_n
         if COUNT.fetch_add(1, std::sync::atomic::Ordering::Relaxed) >= 17 {{ {} }}",
         work(400)
     );
-    assert_eq!(render(&later)[2], Err(Fault::Timeout(Duration::from_secs(3))));
+    assert_eq!(render(&later)[2], Err(Fault::Timeout(3.0)));
     // Who sleeps is taken for one whom the machine lets wait.
     let asleep = "std::thread::sleep(std::time::Duration::from_millis(600))";
-    assert_eq!(render(asleep)[0], Err(Fault::Timeout(Duration::from_secs(3))));
+    assert_eq!(render(asleep)[0], Err(Fault::Timeout(3.0)));
     let awake_later =
         format!("static ONCE: std::sync::Once = std::sync::Once::new(); ONCE.call_once(|| {asleep})");
     assert!(render(&awake_later).iter().all(Result::is_ok));
     // No job takes longer than it may; all together do.
-    assert_eq!(render(&work(100))[2], Err(Fault::Timeout(Duration::from_secs(3))));
+    assert_eq!(render(&work(100))[2], Err(Fault::Timeout(3.0)));
 }

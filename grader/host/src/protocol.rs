@@ -41,7 +41,7 @@ pub struct ReplayJob {
     pub pixel: [u32; 2],
     /// The number of the sample.
     pub sample: u64,
-/// Which ways of finding light are enabled.
+    /// Which ways of finding light are enabled.
     pub switches: Switches,
 }
 
@@ -68,7 +68,13 @@ pub struct RenderJob {
 
 impl RenderJob {
     /// A job that renders one batch for each seed, `samples` per pixel, beginning with the first sample.
-    pub fn new(scene: u32, settings: Settings, [width, height]: [u32; 2], seeds: Vec<u64>, samples: u64) -> Self {
+    pub fn new(
+        scene: u32,
+        settings: Settings,
+        [width, height]: [u32; 2],
+        seeds: Vec<u64>,
+        samples: u64,
+    ) -> Self {
         let (first_sample, switches) = (0, Switches::default());
         Self { scene, settings, width, height, seeds, first_sample, samples, switches }
     }

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
 use judge::grade::{Options, grade};
-use verdict::report::{CheckResult, Reason, Verdict};
+use verdict::check::{CheckResult, Evidence, MeasuredWeights, Reason, Verdict, WeightFault, WeightForm};
 use verdict::submission::Submission;
 
 /// The solution with pieces of text replaced, each of which must be there exactly once; and what the check says of it.
@@ -31,19 +31,47 @@ fn check(changes: &[(&str, &str)]) -> CheckResult {
     report.checks.into_iter().next().expect("the check was run")
 }
 
-fn passes(changes: &[(&str, &str)], words: &str) {
-    let result = check(changes);
-    assert_eq!(result.verdict, Verdict::Pass, "{result:#?}");
-    assert!(result.explanation.contains(words), "{}", result.explanation);
+fn measured(result: &CheckResult) -> &MeasuredWeights {
+    let Some(Evidence::MisWeights(test)) = &result.evidence else { panic!("{result:#?}") };
+    test.measured.as_ref().unwrap_or_else(|| panic!("{result:#?}"))
 }
 
-fn fails(changes: &[(&str, &str)], words: &[&str]) {
+/// It passes, and both weights have odds of these whole exponents.
+fn passes(changes: &[(&str, &str)], exponents: [i32; WeightForm::FACTORS]) {
     let result = check(changes);
-    assert_eq!((result.verdict, result.reason), (Verdict::Fail, Reason::Weights), "{result:#?}");
-    for words in words {
-        assert!(result.explanation.contains(words), "{words}: {}", result.explanation);
+    assert_eq!(result.verdict, Verdict::Pass, "{result:#?}");
+    for form in [measured(&result).light, measured(&result).bsdf] {
+        assert_eq!(form.whole_exponents(), Some(exponents), "{form:?}");
     }
 }
+
+/// It fails at the first vertex, and its weights are of these forms: of light samples, and against BSDF samples.
+fn fails(changes: &[(&str, &str)], light: Form, bsdf: Form) {
+    let result = check(changes);
+    assert_eq!((&result.verdict, result.reason), (&Verdict::Fail, Reason::Weights), "{result:#?}");
+    let Some(Evidence::MisWeights(test)) = &result.evidence else { panic!("{result:#?}") };
+    assert_eq!(test.fault, Some(WeightFault::FirstVertex));
+    for (expected, form) in [(light, measured(&result).light), (bsdf, measured(&result).bsdf)] {
+        match (expected, form) {
+            (Form::Constant(expected), WeightForm::Constant(value)) => {
+                assert!((value - expected).abs() < 1e-3)
+            }
+            (Form::Exponents(expected), form) => {
+                assert_eq!(form.whole_exponents(), Some(expected), "{form:?}")
+            }
+            (Form::Constant(_), form) => panic!("{form:?}"),
+        }
+    }
+}
+
+#[derive(Clone, Copy)]
+enum Form {
+    Constant(f64),
+    /// Of p_L / p_B, distance, cosine at the light, number of lights, 1 / density per area.
+    Exponents([i32; WeightForm::FACTORS]),
+}
+
+const RIGHT: [i32; WeightForm::FACTORS] = [1, 0, 0, 0, 0];
 
 const BALANCE: &str = "1.0 / (1.0 + q / p)";
 /// The density of light samples, as the two places of the solution work it out.
@@ -52,41 +80,37 @@ const HIT: &str = "balance(p_brdf, p_ne)";
 
 #[test]
 fn the_solution_has_the_weights_of_the_balance_heuristic() {
-    passes(&[], "balance heuristic");
+    passes(&[], RIGHT);
 }
 
 #[test]
-fn the_power_heuristic_passes_with_a_remark() {
-    passes(&[(BALANCE, "1.0 / (1.0 + (q / p) * (q / p))")], "power heuristic (exponent 2)");
+fn the_power_heuristic_passes() {
+    passes(&[(BALANCE, "1.0 / (1.0 + (q / p) * (q / p))")], [2, 0, 0, 0, 0]);
 }
 
 #[test]
-fn swapped_and_constant_weights_are_named() {
-    fails(&[(BALANCE, "1.0 / (1.0 + p / q)")], &["in both weights", "swapped"]);
-    fails(&[(BALANCE, "{ let _ = (p, q); 0.5 }")], &["constant (0.50", "0.50 for BSDF samples)"]);
+fn swapped_and_constant_weights_are_found() {
+    let swapped = Form::Exponents([-1, 0, 0, 0, 0]);
+    fails(&[(BALANCE, "1.0 / (1.0 + p / q)")], swapped, swapped);
+    fails(&[(BALANCE, "{ let _ = (p, q); 0.5 }")], Form::Constant(0.5), Form::Constant(0.5));
 }
 
 #[test]
-fn densities_per_area_are_named() {
+fn densities_per_area_are_found() {
     let sampled = (
         SAMPLED,
         "Technique::Mis if light.has_area() => balance(p_light(scene) * sample.pdf_area, bsdf.pdf(wi))",
     );
     let hit = (HIT, "balance(p_brdf, p_light(scene) * emission.pdf_area)");
-    fails(
-        &[sampled, hit],
-        &["in both weights", "per area, not per solid angle: exponent -2 on the distance"],
-    );
-    fails(&[sampled], &["sum to", "in the weight of light samples", "per area"]);
+    let per_area = Form::Exponents([1, -2, 1, 0, 0]);
+    fails(&[sampled, hit], per_area, per_area);
+    fails(&[sampled], per_area, Form::Exponents(RIGHT));
 }
 
 #[test]
-fn a_forgotten_pick_probability_is_named() {
+fn a_forgotten_selection_probability_is_found() {
     let hit = (HIT, "balance(p_brdf, p_ne * scene.lights().len() as f32)");
-    fails(
-        &[hit],
-        &["sum to", "in the weight of BSDF samples", "probability of picking the light is missing"],
-    );
+    fails(&[hit], Form::Exponents(RIGHT), Form::Exponents([1, 0, 0, 1, 0]));
 }
 
 #[test]
@@ -95,5 +119,5 @@ fn a_shadow_ray_that_is_an_ordinary_ray_passes() {
         "scene.occluded(hit, sample.point)",
         "scene.intersect(&hit.spawn(wi)).is_some_and(|other| direction_and_distance(hit.point, other.point).1 < 0.999 * distance)",
     );
-    passes(&[change], "balance heuristic");
+    passes(&[change], RIGHT);
 }

@@ -11,10 +11,13 @@ use arty::sampler::batch_seed;
 use harness::build::{Framework, HandInProgram, compile};
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
-use host::protocol::Switches;
 use judge::grade::{Options, grade};
-use judge::replay::{Place, follow, vertices};
-use verdict::report::{CheckResult, Reason, Verdict};
+use judge::replay::{follow, load, vertices};
+use verdict::check::{
+    CheckResult, Deviation, Evidence, NumericalCause, Place, Reason, StabilityFinding, Verdict,
+};
+use verdict::replay::ReplayTarget;
+use verdict::rubric::EmissionOnHit;
 use verdict::submission::Submission;
 
 fn workspace() -> Workspace {
@@ -47,14 +50,19 @@ fn check(changes: &[(&str, &str)]) -> Vec<CheckResult> {
     report.checks
 }
 
-fn fails(changes: &[(&str, &str)], reason: Reason, words: &[&str]) {
+fn findings(result: &CheckResult) -> &[StabilityFinding] {
+    let Some(Evidence::Stability(test)) = &result.evidence else { panic!("{result:#?}") };
+    &test.findings
+}
+
+/// Some finding that points depend on is at this place, for this cause, and can be replayed.
+fn fails(changes: &[(&str, &str)], reason: Reason, place: &Place, is_cause: fn(&NumericalCause) -> bool) {
     for result in check(changes) {
-        assert_eq!((result.verdict, result.reason), (Verdict::Fail, reason), "{result:#?}");
-        let said = format!("{}\n{}", result.explanation, result.remarks.join("\n"));
-        for words in words {
-            assert!(said.contains(words), "{words}: {said}");
-        }
-        assert!(result.explanation.contains("cargo grader replay 'hand in/render_pt.rs' --scene="), "{said}");
+        assert_eq!((&result.verdict, result.reason), (&Verdict::Fail, reason), "{result:#?}");
+        let found = findings(&result).iter().filter(|finding| finding.is_graded);
+        let mut there = found.filter(|finding| finding.place == *place && is_cause(&finding.likely_cause));
+        let first = there.next().and_then(|finding| finding.first.as_ref());
+        assert!(first.is_some_and(|first| first.replay.is_some()), "{result:#?}");
     }
 }
 
@@ -67,12 +75,13 @@ const RESULT: &str = "        radiance\n    }";
 fn the_solution_is_right_but_where_both_densities_are_infinite() {
     for result in check(&[]) {
         assert_eq!(result.verdict, Verdict::Pass, "{result:#?}");
-        assert_eq!((result.non_finite, result.negative), (0, 0));
-        // The framework never hands out such densities.
-        let expected =
-            "with densities per solid angle of inf (light) and inf (BSDF): the light sample gives NaN";
-        assert!(result.remarks.iter().all(|remark| remark.starts_with(expected)), "{:?}", result.remarks);
-        assert_eq!(result.remarks.len(), usize::from(result.technique == Technique::Mis));
+        assert!(result.numerics.is_clean());
+        // The framework never returns such densities.
+        let infinite = f64::INFINITY.into();
+        let expected = Place::Densities { light: infinite, bsdf: infinite };
+        let found = findings(&result);
+        assert!(found.iter().all(|finding| finding.place == expected && !finding.is_graded), "{found:#?}");
+        assert_eq!(found.len(), usize::from(result.id.technique == Technique::Mis));
     }
 }
 
@@ -80,35 +89,55 @@ fn the_solution_is_right_but_where_both_densities_are_infinite() {
 fn an_epsilon_of_its_own_is_found_whether_large_or_small() {
     let large = "scene.intersect(&Ray::new(hit.point + wi * 1e-3, wi)).is_some_and(|other| \
                  other.point.distance(hit.point) < distance - 1e-3)";
-    fails(&[(SHADOW_RAY, large)], Reason::Bias, &["2^-10 times as large", "fixed epsilon"]);
+    fails(&[(SHADOW_RAY, large)], Reason::Bias, &Place::Scaled(-10), |cause| {
+        matches!(cause, NumericalCause::FixedEpsilon { is_large: true, .. })
+    });
     let small = "scene.intersect(&Ray::new(hit.point + hit.geometric_normal * 1e-6, wi)).is_some_and(|other| \
                  other.point.distance(hit.point) < 0.999 * distance)";
-    fails(&[(SHADOW_RAY, small)], Reason::Bias, &["2^10 times as large", "fixed epsilon"]);
+    fails(&[(SHADOW_RAY, small)], Reason::Bias, &Place::Scaled(10), |cause| {
+        matches!(cause, NumericalCause::FixedEpsilon { is_large: false, .. })
+    });
 }
 
 #[test]
 fn a_limit_on_radiance_is_found_and_named() {
     let limited = "        radiance.map(|channel| channel.min(100.0))\n    }";
-    fails(&[(RESULT, limited)], Reason::Bias, &["2^10 times as bright", "limited to 100"]);
+    fails(
+        &[(RESULT, limited)],
+        Reason::Bias,
+        &Place::Brightened(10),
+        |cause| matches!(cause, NumericalCause::ClampedRadiance { limit, .. } if limit.0 == 100.0),
+    );
 }
 
 #[test]
 fn nan_of_its_own_is_found_even_where_it_is_hidden() {
+    let along_normal = Place::ExtremeScene("light_along_normal".to_owned());
     let open = "(hit.normal.dot(wi).acos().cos() * weight / p_ne)";
-    fails(&[(CONTRIBUTION, open)], Reason::Numerics, &["light_along_normal", "NaN", "arc cosine"]);
+    fails(&[(CONTRIBUTION, open)], Reason::Numerics, &along_normal, |cause| {
+        *cause == NumericalCause::InvalidOperation
+    });
     let hidden = "(hit.normal.dot(wi).acos().cos().max(0.0) * weight / p_ne)";
-    fails(&[(CONTRIBUTION, hidden)], Reason::Bias, &["light_along_normal", "hidden as 0"]);
+    fails(&[(CONTRIBUTION, hidden)], Reason::Bias, &along_normal, |cause| {
+        *cause == NumericalCause::HiddenNanOrOffset
+    });
 }
 
 #[test]
 fn naive_weights_pass_with_a_remark_on_where_they_break() {
-    for (naive, words) in [("p / (p + q)", "∞/∞"), ("p * p / (p * p + q * q)", "0/0")] {
+    let causes: [(&str, NumericalCause); 2] = [
+        ("p / (p + q)", NumericalCause::InfiniteDensity),
+        ("p * p / (p * p + q * q)", NumericalCause::DensityUnderflow),
+    ];
+    for (naive, cause) in causes {
         let results = check(&[(BALANCE, naive)]);
         assert!(results.iter().all(|result| result.verdict == Verdict::Pass), "{results:#?}");
-        let remarks = results[1].remarks.join("\n");
+        let found = findings(&results[1]);
         assert!(
-            remarks.contains("with densities per solid angle of") && remarks.contains(words),
-            "{remarks}"
+            found.iter().any(|it| {
+                it.likely_cause == cause && matches!(it.deviation, Deviation::NoRadiance { .. })
+            }),
+            "{found:#?}"
         );
     }
 }
@@ -118,32 +147,34 @@ fn program(changes: &[(&str, &str)]) -> HandInProgram {
     compile(&framework, &source(changes), &Limits::default()).expect("rustc runs").expect("it compiles")
 }
 
-fn place(technique: Technique, sample: u64) -> Place {
-    Place {
-        scene: Place::ROOM.to_owned(),
-        description: Place::load(&workspace(), Place::ROOM, 1.0, 1.0).expect("it is there"),
+fn target(technique: Technique, sample: u64) -> ReplayTarget {
+    ReplayTarget {
+        scene: ReplayTarget::ROOM.to_owned(),
         scale: 1.0,
         emission: 1.0,
         technique,
         // Before roulette begins, which is not among the calls.
         max_bounces: 3,
+        emission_on_hit: EmissionOnHit::On,
         size: [16, 16],
         seed: batch_seed(1, 2),
         pixel: [7, 9],
         sample,
-        switches: Switches::default(),
     }
+}
+
+fn room() -> arty::scene::SceneDescription {
+    load(&workspace(), &target(Technique::Nee, 0)).expect("it is there")
 }
 
 #[test]
 fn the_vertices_of_a_replayed_path_add_up_to_its_radiance() {
-    let program = program(&[]);
+    let (program, room) = (program(&[]), room());
     let mut bright = 0;
     for technique in Technique::ALL {
         for sample in 0..40 {
-            let place = place(technique, sample);
-            let path = follow(&program, &place).expect("the harness works").expect("the solution answers");
-            let sum: f64 = vertices(&path, &place)
+            let path = follow(&program, &target(technique, sample), &room).expect("the solution answers");
+            let sum: f64 = vertices(&path, technique, &room)
                 .iter()
                 .flat_map(|vertex| [&vertex.hit, &vertex.light_sample])
                 .flatten()
@@ -161,14 +192,13 @@ fn the_vertices_of_a_replayed_path_add_up_to_its_radiance() {
 #[test]
 fn a_replay_shows_every_call_and_numbers_that_json_does_not_have() {
     let nan = [(CONTRIBUTION, "(hit.cos(wi) * f32::NAN / p_ne)")];
-    let program = program(&nan);
-    let path = follow(&program, &place(Technique::Nee, 0)).expect("the harness works").expect("it answers");
+    let (program, room) = (program(&nan), room());
+    let path = follow(&program, &target(Technique::Nee, 0), &room).expect("it answers");
     let calls: Vec<&str> = path.calls.iter().map(|call| call.function.as_str()).collect();
     assert_eq!(calls[..3], ["Scene::intersect", "Sampler::next_1d", "Light::sample_direct"], "{calls:?}");
     assert!(calls.contains(&"Bsdf::sample"), "{calls:?}");
-    let lit = (0..40).map(|sample| {
-        follow(&program, &place(Technique::Nee, sample)).expect("the harness works").expect("it answers")
-    });
+    let lit =
+        (0..40).map(|sample| follow(&program, &target(Technique::Nee, sample), &room).expect("it answers"));
     let path = lit.into_iter().find(|path| path.radiance[1].is_nan()).expect("some path is lit");
     let json = serde_json::to_value(&path).expect("it can be written");
     assert_eq!(json["radiance"][1], "NaN");
@@ -179,7 +209,8 @@ fn a_replay_shows_every_call_and_numbers_that_json_does_not_have() {
 #[test]
 fn a_scene_that_does_not_exist_is_one_clear_error() {
     for name in ["nothing", "../scenes/mesh"] {
-        let error = Place::load(&workspace(), name, 1.0, 1.0).expect_err("there is none");
+        let target = ReplayTarget { scene: name.to_owned(), ..target(Technique::Nee, 0) };
+        let error = load(&workspace(), &target).expect_err("there is none");
         assert!(error.to_string().starts_with("--scene: "), "{error}");
     }
 }

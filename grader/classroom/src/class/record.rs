@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 
 use intake::HandIn;
 use present::page::{pages_beside, pictures_beside};
-use verdict::error::{Error, Result};
 use present::words;
 use verdict::check::{CheckKind, CheckResult, Evidence, Reason, Verdict};
+use verdict::error::{Error, Result};
 use verdict::report::Report;
 use verdict::submission::{Explanation, IntakeFinding};
 
@@ -100,7 +100,11 @@ fn work(report: &Report) -> Option<f64> {
         check.id.kind == CheckKind::Efficiency && check.id.technique == Technique::Mis && check.samples > 0
     };
     // What leaves light out has little noise.
-    if report.checks.iter().any(|check| check.id.technique == Technique::Mis && check.verdict == Verdict::Fail) {
+    if report
+        .checks
+        .iter()
+        .any(|check| check.id.technique == Technique::Mis && check.verdict == Verdict::Fail)
+    {
         return None;
     }
     let logs: Vec<f64> = report

@@ -10,11 +10,11 @@ use super::refuse::{Look, look};
 use super::scratch::Scratch;
 use super::shape::Shape;
 use super::{Framework, refuse};
-use verdict::error::{Error, Result};
 use crate::sandbox::{self, Account, Layers, Limits, Profile};
-use verdict::text::clean;
 use serde::Deserialize;
+use verdict::error::{Error, Result};
 use verdict::submission::BuildFailure;
+use verdict::text::clean;
 
 /// The program around a hand-in.
 const PROGRAM: &str = include_str!("../../../host/program/main.rs");

@@ -7,10 +7,10 @@ use super::cargo;
 use super::compiler::Compiler;
 use super::kept::{self, Kept};
 use super::shape::Shape;
-use verdict::error::Result;
 use crate::sandbox::Grants;
 use crate::tree_hash::hash_tree;
 use crate::workspace::Workspace;
+use verdict::error::Result;
 
 /// The compiled libraries of the framework, as Cargo built them from the sources of this checkout.
 ///

@@ -13,6 +13,6 @@ mod shape;
 #[path = "shape_elsewhere.rs"]
 mod shape;
 
-pub use compile::{HandInProgram, compile, differences, recipe};
 pub(crate) use compile::compile_empty;
+pub use compile::{HandInProgram, compile, differences, recipe};
 pub use framework::Framework;

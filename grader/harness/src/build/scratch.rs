@@ -11,8 +11,8 @@ use std::time::Duration;
 
 use tempfile::TempDir;
 
-use verdict::error::{self, Error};
 use crate::sandbox::Account;
+use verdict::error::{self, Error};
 
 /// How their names begin.
 const PREFIX: &str = "arty-hand-in-";

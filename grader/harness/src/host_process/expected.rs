@@ -19,8 +19,8 @@ const WORDS: u64 = 16 << 10;
 /// Bytes of one mean: three numbers.
 const MEAN: u64 = 12;
 
-/// Bytes of one path at most: three numbers, and four that take up to five bytes.
-const PATH: u64 = 12 + 4 * 5;
+/// Bytes of one path at most: three numbers, and three counts that take up to five bytes.
+const PATH: u64 = 12 + 3 * 5;
 
 /// Bytes of one call that is written down, at most, and how many there are.
 const CALL: u64 = 1 << 10;
@@ -161,8 +161,7 @@ mod tests {
         assert!(error(&rendered(vec![Vec::new(); 9000])).contains("parts"));
         assert!(error(&Response::Probed(vec![Vec::new(); 9000])).contains("parts"));
         assert!(error(&rendered(vec![vec![[0.0; 3]; 4000]; 3])).contains("bytes"));
-        let path =
-            ProbedPath { radiance: [0.0; 3], rays: 0, shadow_rays: 0, light_samples: 0, bsdf_samples: 0 };
+        let path = ProbedPath { radiance: [0.0; 3], rays: 0, shadow_rays: 0, light_samples: 0 };
         assert!(read(Expected::start(), &Response::Probed(vec![vec![path]])).is_err());
     }
 }

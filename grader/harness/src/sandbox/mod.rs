@@ -25,8 +25,8 @@ use linux as system;
 
 pub use grants::Grants;
 pub use grants::linker;
-pub use verdict::sandbox::{Layers, Level};
 pub use limits::Limits;
 pub(crate) use process::{Profile, blame_machine, end, prepare};
 pub use system::Machine;
 pub(crate) use system::{Account, confirmed, out_of_memory_kills, processor_time};
+pub use verdict::sandbox::{Layers, Level};

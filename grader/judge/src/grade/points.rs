@@ -130,8 +130,9 @@ tasks:
             let sample = sample::report("").checks[0].clone();
             CheckResult { id, task: "one".to_owned(), required: true, verdict, ..sample }
         };
-        let lost = |verdict| {
-            rubric.tasks.iter().map(|task| lost_to(task, &[result(verdict)]).is_some()).collect::<Vec<_>>()
+        let lost = |verdict: Verdict| {
+            let results = [result(verdict)];
+            rubric.tasks.iter().map(|task| lost_to(task, &results).is_some()).collect::<Vec<_>>()
         };
         assert_eq!(lost(Verdict::Fail), [true, true, false]);
         assert_eq!(lost(Verdict::Inconclusive), [true, true, false]);

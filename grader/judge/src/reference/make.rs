@@ -131,8 +131,7 @@ struct Renderer {
 impl Renderer {
     fn start(program: &HandInProgram, description: &SceneDescription, threads: usize) -> Result<Self> {
         let mut process = HostProcess::start(program, threads)?;
-        let scene =
-            process.load(description).map_err(|error| error.of_trusted("the solution"))?;
+        let scene = process.load(description).map_err(|error| error.of_trusted("the solution"))?;
         Ok(Self { process, scene, switches: Switches::default() })
     }
 
@@ -154,10 +153,7 @@ impl Renderer {
                 switches: self.switches,
                 ..RenderJob::new(self.scene, settings, [width, height], seeds.to_vec(), samples)
             };
-            let rendered = self
-                .process
-                .render(&job)
-                .map_err(|error| error.of_trusted("the solution"))?;
+            let rendered = self.process.render(&job).map_err(|error| error.of_trusted("the solution"))?;
             if rendered.non_finite + rendered.negative > 0 {
                 let what = format!("{:?}", rendered.first_anomalies.first());
                 return Err(Error::Harness(format!(

@@ -108,7 +108,7 @@ mod tests {
             ("all", (|_| 0) as fn(u32) -> u32),
             ("pairs in a row", |pixel| pixel / 2),
             ("sixteen in a row", |pixel| pixel / 16),
-            (PixelGroup::Column, |pixel| pixel % 16),
+            ("columns", |pixel| pixel % 16),
         ] {
             for seed in 0..5 {
                 let found = seen(seed, stream);

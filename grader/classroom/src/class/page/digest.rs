@@ -62,7 +62,8 @@ impl Digests {
             if let Some(record) = &record {
                 digest.seconds = Some(record.seconds);
                 digest.work = record.work;
-                let run = record.checks.iter().filter(|(_, verdict)| !matches!(verdict, Verdict::Skipped { .. }));
+                let run =
+                    record.checks.iter().filter(|(_, verdict)| !matches!(verdict, Verdict::Skipped { .. }));
                 for (check, verdict) in run {
                     let rate = digests.checks.entry(check.clone()).or_default();
                     rate.run += 1;

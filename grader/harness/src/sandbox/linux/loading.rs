@@ -6,8 +6,8 @@ use std::process::Child;
 use std::sync::OnceLock;
 
 use host::confine::landlock as files;
-use verdict::sandbox::Layers;
 use landlock::{AccessFs, PathBeneath, PathFd, RulesetCreated, RulesetCreatedAttr};
+use verdict::sandbox::Layers;
 
 use super::super::grants;
 

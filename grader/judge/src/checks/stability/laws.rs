@@ -12,9 +12,9 @@ use verdict::check::{Deviation, NumericalCause, Place, StabilityFinding};
 use verdict::replay::ReplayTarget;
 
 use super::{Asked, Found, cause_of};
-use harness::job::JobError;
 use crate::extreme::measure::mean_and_error;
 use crate::scenes::{changed, room};
+use harness::job::JobError;
 
 /// Width and height of the picture.
 const SIZE: [u32; 2] = [16, 16];

@@ -6,9 +6,9 @@ use host::protocol::{AnomalousSample, RenderJob};
 use verdict::check::{Deviation, NumericalCause, Place, StabilityFinding};
 
 use super::{Asked, Found, cause_of};
-use harness::job::JobError;
 use crate::extreme::answers;
 use crate::extreme::measure::{self, Effort, findings};
+use harness::job::JobError;
 
 /// Paths for each scene.
 const EFFORT: Effort = Effort(1 << 13);
