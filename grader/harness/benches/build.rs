@@ -39,7 +39,7 @@ fn build(criterion: &mut Criterion) {
         group.bench_function(format!("start, load cornell_box, end{name}"), |b| {
             b.iter(|| {
                 let mut process = HostProcess::start(&program, 1).expect("the program starts");
-                process.load(&scene).expect("the pipe holds").expect("the scene loads")
+                process.load(&scene).expect("the scene loads")
             });
         });
     }

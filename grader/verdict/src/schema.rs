@@ -18,3 +18,20 @@ pub(crate) enum TechniqueName {
 pub fn report() -> serde_json::Value {
     schemars::schema_for!(Report).into()
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    /// The file is what other programs read; `UPDATE_SCHEMA=1 cargo test -p verdict schema` writes it anew.
+    #[test]
+    fn the_schema_that_is_kept_is_that_of_the_types() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("report.schema.json");
+        let current = format!("{:#}\n", super::report());
+        if std::env::var_os("UPDATE_SCHEMA").is_some() {
+            std::fs::write(&file, &current).expect("it can be written");
+        }
+        let kept = std::fs::read_to_string(&file).unwrap_or_default().replace("\r\n", "\n");
+        assert!(kept == current, "{} is stale: run UPDATE_SCHEMA=1 cargo test -p verdict schema", file.display());
+    }
+}

@@ -14,6 +14,7 @@ mod mean_bias;
 mod means;
 mod metamorphic;
 mod mis_weights;
+mod path_length;
 mod randomness;
 mod ray_budget;
 mod stability;
@@ -37,6 +38,7 @@ static REGISTRY: [&dyn Check; CheckKind::ALL.len()] = [
     &mean_bias::MeanBias,
     &metamorphic::Metamorphic,
     &mis_weights::MisWeights,
+    &path_length::PathLength,
     &randomness::Randomness,
     &ray_budget::RayBudget,
     &stability::Stability,

@@ -19,6 +19,7 @@ pub enum Evidence {
     MeanBias(MeanTest),
     Metamorphic(ChangeTest),
     MisWeights(WeightTest),
+    PathLength(PathLengths),
     Randomness(RandomNumbers),
     RayBudget(RayCounts),
     Stability(StabilityTest),
@@ -36,6 +37,7 @@ impl Evidence {
             Self::MeanBias(_) => CheckKind::MeanBias,
             Self::Metamorphic(_) => CheckKind::Metamorphic,
             Self::MisWeights(_) => CheckKind::MisWeights,
+            Self::PathLength(_) => CheckKind::PathLength,
             Self::Randomness(_) => CheckKind::Randomness,
             Self::RayBudget(_) => CheckKind::RayBudget,
             Self::Stability(_) => CheckKind::Stability,
@@ -53,6 +55,7 @@ impl Evidence {
             Self::Efficiency(_)
             | Self::LightPick(_)
             | Self::MisWeights(_)
+            | Self::PathLength(_)
             | Self::Randomness(_)
             | Self::RayBudget(_)
             | Self::Stability(_) => None,
@@ -139,6 +142,15 @@ pub struct LightShares {
     pub excess: [Option<f64>; 3],
     /// The first light that contributes too much or too little, counted from 0.
     pub wrong: Option<u32>,
+}
+
+/// Bounces of paths that nothing but `max_bounces` and Russian roulette should end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct PathLengths {
+    /// Maximum number of bounces that was asked for.
+    pub max_bounces: u32,
+    /// The number of bounces after which the submission ends all paths, if that is less.
+    pub limit: Option<u32>,
 }
 
 /// Whether pixels, batches and seeds are independent and repeatable.

@@ -22,6 +22,8 @@ pub enum CheckKind {
     Metamorphic,
     /// MIS weights, one by one; `max_bounces` is the longest path that is looked at.
     MisWeights,
+    /// Number of bounces that paths are given.
+    PathLength,
     /// Independence of pixels, batches and seeds.
     Randomness,
     /// Rays per path; `max_bounces` is the longest path that is looked at.
@@ -34,7 +36,7 @@ pub enum CheckKind {
 
 impl CheckKind {
     /// All kinds, by name.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::ClosedForm,
         Self::Efficiency,
         Self::HiddenVariants,
@@ -42,6 +44,7 @@ impl CheckKind {
         Self::MeanBias,
         Self::Metamorphic,
         Self::MisWeights,
+        Self::PathLength,
         Self::Randomness,
         Self::RayBudget,
         Self::Stability,
@@ -58,6 +61,7 @@ impl CheckKind {
             Self::MeanBias => "mean-bias",
             Self::Metamorphic => "metamorphic",
             Self::MisWeights => "mis-weights",
+            Self::PathLength => "path-length",
             Self::Randomness => "randomness",
             Self::RayBudget => "ray-budget",
             Self::Stability => "stability",
@@ -75,7 +79,12 @@ impl CheckKind {
     pub fn needs_scene(self) -> bool {
         !matches!(
             self,
-            Self::HiddenVariants | Self::LightPick | Self::MisWeights | Self::RayBudget | Self::Stability
+            Self::HiddenVariants
+                | Self::LightPick
+                | Self::MisWeights
+                | Self::PathLength
+                | Self::RayBudget
+                | Self::Stability
         )
     }
 }

@@ -11,7 +11,7 @@ mod weights;
 mod why_not;
 
 pub use evidence::{
-    ChangeTest, Evidence, LightShares, Noise, PixelGroup, RandomNumbers, RayCounts, SceneChange, TooManyRays,
+    ChangeTest, Evidence, LightShares, Noise, PathLengths, PixelGroup, RandomNumbers, RayCounts, SceneChange, TooManyRays,
     VarianceOf, VariantTest,
 };
 pub use fault::{Anomaly, Fault, Numerics};
