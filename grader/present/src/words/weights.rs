@@ -121,7 +121,7 @@ fn fault(form: WeightForm) -> Option<String> {
         0 => faults.push("the densities are ignored".to_owned()),
         _ => faults.push(format!("the density ratio has the exponent {ratio} instead of 1")),
     }
-    let sign = ratio.signum() | 1;
+    let sign = if ratio < 0 { -1 } else { 1 };
     let [distance, cos, lights, area] = [distance, cos, lights, area].map(|exponent| sign * exponent);
     let (of_distance, of_cos) = (power("distance", distance), power("cos θ", cos));
     match (distance, cos) {
