@@ -54,7 +54,10 @@ fn pixels_are_half_floats_and_what_is_derived_is_bytes() {
     for bytes in [">ADwAQAA4ADwAQAA4<", ">AOI=<", ">AP8=<"] {
         assert!(text.contains(bytes), "{bytes}");
     }
-    assert!(text.contains("data-seeds=\"18446744073709551615 7\""), "seeds are no numbers of JavaScript's");
+    assert!(
+        text.contains("data-seeds=\"18446744073709551615 7\""),
+        "seeds are too large for JavaScript's numbers"
+    );
 }
 
 #[test]

@@ -80,6 +80,9 @@ fn why(light: WeightForm, bsdf: WeightForm) -> String {
         {
             format!("in both weights, {}", fault(light).unwrap_or_else(|| unclear(light)))
         }
+        (WeightForm::Other, WeightForm::Other) => {
+            "neither weight is a simple function of the densities".to_owned()
+        }
         _ => {
             let of = |name: &str, form| fault(form).map(|fault| format!("in the weight of {name}, {fault}"));
             let found = [of("light samples", light), of("BSDF samples", bsdf)];
@@ -165,7 +168,7 @@ fn unclear(form: WeightForm) -> String {
             )
         }
         WeightForm::Constant(_) | WeightForm::Other => {
-            "the weight is no simple function of the densities".to_owned()
+            "it is not a simple function of the densities".to_owned()
         }
     }
 }
