@@ -1,8 +1,8 @@
 //! What people and other systems see: terminal, pages, plots and exports, all made from a
 //! [`Report`](verdict::report::Report).
 //!
-//! Nothing here changes a verdict or a point, and nothing outside of [`words`] makes sentences about one. Names, panic messages and paths may hold anything; what is special in a
-//! format is escaped by that format.
+//! Nothing here changes a verdict or a point, and only [`words`] makes sentences about them. Names, panic messages and
+//! paths may hold anything; what is special in a format is escaped by that format.
 
 pub mod convergence;
 pub mod export;

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use present::export::{Export, Format, Received, Surroundings, annotations, summary};
+use present::export::{Export, Format, Received, Surroundings};
 use verdict::error::{Error, Result};
 use verdict::report::Report;
 
@@ -43,18 +43,18 @@ pub(super) fn after_grade(report: &Report, exports: &[Export], folder: &Path) ->
     if let Some(file) = variable("GITHUB_STEP_SUMMARY") {
         // Other steps' summaries may stand there already.
         let path = Path::new(file);
+        let summary = Format::Markdown.render(report, &surroundings)?;
         std::fs::OpenOptions::new()
             .create(true)
             .append(true)
             .open(path)
-            .and_then(|mut file| file.write_all(summary(report).as_bytes()))
+            .and_then(|mut file| file.write_all(summary.as_bytes()))
             .map_err(|error| Error::file(path, error))?;
         eprintln!("GITHUB_STEP_SUMMARY is set: a summary was added to it");
     }
     let asked_for = exports.iter().any(|export| export.format == Format::Github);
     if variable("GITHUB_ACTIONS").is_some_and(|value| value == "true") && !asked_for {
-        // Nobody may be reading any more.
-        let _ = std::io::stdout().lock().write_all(annotations(report, &surroundings).as_bytes());
+        Export { format: Format::Github, file: None }.write(report, &surroundings, folder)?;
         eprintln!("GITHUB_ACTIONS is set: annotations were printed");
     }
     let mut files = exports.iter().filter(|export| export.target(folder).is_some());

@@ -3,15 +3,16 @@
 use arty::integrator::Technique;
 
 use crate::check::{
-    BounceEnergy, CheckId, CheckKind, CheckResult, Effect, Evidence, FurnaceTest, MeanTest, Numerics, Reason,
-    RegionId, RegionKind, SkipReason, Verdict, Visibility, WhyNot,
+    BounceEnergy, CheckId, CheckKind, CheckResult, Deviation, Effect, Evidence, Fault, FurnaceTest, MeanTest,
+    NumericalCause, Numerics, Place, Reason, RegionId, RegionKind, SkipReason, StabilityFinding,
+    StabilityTest, Verdict, Visibility, WhyNot,
 };
 use crate::pictures::Picture;
 use crate::report::{
     Cause, Cost, Diagnosis, Points, Provenance, Report, SCHEMA, Sandbox, SeenIn, SkippedCheck,
     SubmissionInfo, TaskResult, TaskState,
 };
-use crate::rubric::EmissionOnHit;
+use crate::rubric::{EmissionOnHit, SCRIPTED};
 use crate::sandbox::Layers;
 use crate::submission::SourceFinding;
 
@@ -120,6 +121,33 @@ pub fn report(text: &str) -> Report {
         provenance: Provenance { toolchain: text(), assignment: text(), ..Provenance::default() },
         convergence: None,
         images: Vec::new(),
+    }
+}
+
+/// A report with [`EVIL`] wherever a text can stand, in a panic message and in a remark, too.
+pub fn evil_report() -> Report {
+    let mut report = self::report(EVIL);
+    report.checks[0].fault = Some(Fault::Panic(EVIL.to_owned()));
+    report.checks.push(check_with_remark(EVIL));
+    report
+}
+
+/// A check that passes with a remark about a scene of this name.
+pub fn check_with_remark(scene: &str) -> CheckResult {
+    let finding = StabilityFinding {
+        place: Place::ExtremeScene(scene.to_owned()),
+        deviation: Deviation::Anomalies { non_finite: 1, negative: 0 },
+        likely_cause: NumericalCause::Limit,
+        is_graded: false,
+        first: None,
+        replay: None,
+    };
+    CheckResult {
+        id: id(CheckKind::Stability, SCRIPTED),
+        verdict: Verdict::Pass,
+        reason: Reason::None,
+        evidence: Some(Evidence::Stability(StabilityTest { findings: vec![finding] })),
+        ..report(scene).checks.remove(0)
     }
 }
 

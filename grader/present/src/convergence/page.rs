@@ -69,7 +69,9 @@ mod tests {
         let crops =
             Crops { scene: "box".to_owned(), technique: Technique::Mis, seconds: 0.25, list: vec![crop] };
         let text = page(&Convergence::default(), &[crops]);
-        assert!(text.contains("&lt;b&gt;&amp;") && !text.contains("<b>") && text.contains("base64,AQID"));
+        assert!(
+            text.contains("&lt;b&gt;&amp;") && !text.contains("<b>") && text.contains("base64,iVBORw0KGgo")
+        );
         assert!(text.contains("3 samples") && text.contains("relMSE 0.500"));
     }
 }

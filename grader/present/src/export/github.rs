@@ -68,7 +68,7 @@ fn property(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use verdict::sample::{EVIL, report};
+    use verdict::sample::{EVIL, check_with_remark, evil_report, report};
     use verdict::submission::BuildFailure;
 
     /// Takes a workflow command apart as the runner of GitHub does: up to the first `::`, split at commas, unescaped.
@@ -93,7 +93,7 @@ mod tests {
 
     #[test]
     fn nothing_in_a_report_breaks_out_of_its_annotation() {
-        let mut report = report(EVIL);
+        let mut report = evil_report();
         report.submission.build_failure =
             Some(BuildFailure { messages: format!("100 %\r\n{EVIL}"), line: Some(7) });
         let surroundings = Surroundings {
@@ -123,6 +123,7 @@ mod tests {
         report.tasks.push(task);
         let check = report.checks[0].clone();
         report.checks.extend(vec![check.clone(); 30]);
+        report.checks.extend(vec![check_with_remark("x"); 30]);
         report.checks.push(verdict::check::CheckResult { task: "5.2b".to_owned(), ..check });
         let text = annotations(&report, &Surroundings::default());
         for kind in ["error", "warning", "notice"] {

@@ -100,14 +100,19 @@ fn skipped(why: &str) -> TestCaseStatus {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use verdict::sample::{EVIL, report};
+    use verdict::check::CheckKind;
+    use verdict::sample::{EVIL, evil_report, id, report};
 
     #[test]
     fn what_is_written_reads_back_whatever_stands_in_the_report() {
-        let text = xml(&report(EVIL)).expect("it can be made");
+        let mut report = evil_report();
+        let skipped = id(CheckKind::Efficiency, EVIL);
+        report.skipped[0].check = Some(skipped.clone());
+        report.tasks[0].checks.push(skipped);
+        let text = xml(&report).expect("it can be made");
         let read = Document::deserialize_from_str(&text).expect("it is JUnit's XML");
         assert_eq!(read.test_suites.len(), 2, "{text}");
-        assert_eq!((read.tests, read.failures), (3, 1), "{text}");
+        assert_eq!((read.tests, read.failures), (4, 1), "{text}");
         let failed = &read.test_suites[0].test_cases[0];
         assert!(
             matches!(&failed.status, TestCaseStatus::NonSuccess { message: Some(message), .. }

@@ -115,11 +115,11 @@ pub(super) fn block(plain: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use verdict::sample::{EVIL, report};
+    use verdict::sample::{evil_report, report};
 
     #[test]
     fn nothing_in_a_report_becomes_markup() {
-        let made = summary(&report(EVIL));
+        let made = summary(&evil_report());
         // A block ends at the fence that it began with.
         let (mut outside, mut fence) = (String::new(), None);
         for line in made.lines() {

@@ -156,8 +156,7 @@ mod tests {
 
     #[test]
     fn no_format_names_what_only_staff_may_see() {
-        let mut report = with_staff_only_checks();
-        report.diagnosis[1].seen = None;
+        let report = with_staff_only_checks();
         let surroundings = Surroundings::default();
         for format in <Format as clap::ValueEnum>::value_variants() {
             let text = format.render(&report, &surroundings).expect("it can be made");

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::words::{self, count};
-use verdict::check::{CheckResult, Evidence, Verdict};
+use verdict::check::{CheckResult, Evidence, Reason, Verdict};
 use verdict::edition::Edition;
 use verdict::report::{Provenance, Report, TaskResult};
 
@@ -126,7 +126,7 @@ fn row(report: &Report, check: &CheckResult) -> Markup {
                 details.again {
                     summary { "what this checks / re-run" }
                     p.soft { "This check " (words::about(check.id.kind)) "." }
-                    @if check.verdict == Verdict::Fail && test.is_some() && check.numerics.is_clean() {
+                    @if check.reason == Reason::Bias && test.is_some() {
                         p.soft { "The result was confirmed with independent random numbers." }
                     }
                     code { (words::repeat_command(report, &check.id)) }

@@ -1,7 +1,9 @@
 use super::*;
 use verdict::check::{MeanTest, MeasuredWeights, WeightForm, WeightTest};
 use verdict::edition::for_student;
-use verdict::sample::{EVIL, STAFF_ONLY, furnace_test, mean_test, picture, report, with_staff_only_checks};
+use verdict::sample::{
+    EVIL, STAFF_ONLY, evil_report, furnace_test, mean_test, picture, report, with_staff_only_checks,
+};
 
 fn of(text: &str, pictures: &[Picture]) -> String {
     page(&report(text), pictures, Edition::Tutor)
@@ -9,8 +11,11 @@ fn of(text: &str, pictures: &[Picture]) -> String {
 
 #[test]
 fn nothing_that_a_submission_says_is_markup() {
-    let student = for_student(&report(EVIL), Some("render_pt.rs"));
-    for text in [of(EVIL, &[picture(EVIL)]), page(&student.0, &[picture(EVIL)], student.1)] {
+    let student = for_student(&evil_report(), Some("render_pt.rs"));
+    for text in [
+        page(&evil_report(), &[picture(EVIL)], Edition::Tutor),
+        page(&student.0, &[picture(EVIL)], student.1),
+    ] {
         assert!(!text.contains("<script>alert") && text.contains("&lt;script&gt;alert(1)"), "escaped");
         assert!(!text.contains("\"'&|") && !text.contains("href=") && !text.contains("src="));
     }
@@ -49,7 +54,10 @@ fn pixels_are_half_floats_and_what_is_derived_is_bytes() {
     for bytes in [">ADwAQAA4ADwAQAA4<", ">AOI=<", ">AP8=<"] {
         assert!(text.contains(bytes), "{bytes}");
     }
-    assert!(text.contains("data-seeds=\"18446744073709551615 7\""), "seeds are no numbers of JavaScript's");
+    assert!(
+        text.contains("data-seeds=\"18446744073709551615 7\""),
+        "seeds are too large for JavaScript's numbers"
+    );
 }
 
 #[test]

@@ -4,8 +4,9 @@ use verdict::check::{CheckKind, CheckResult, Evidence, Reason, Verdict};
 use verdict::report::{Cause, Diagnosis, Report};
 use verdict::rubric::EmissionOnHit;
 
+use super::check::{explanation, observation};
+use super::means;
 use super::number::trimmed;
-use super::{explanation, means};
 
 /// The line above what was seen and the hint, which are both empty if the cause is unknown.
 pub fn heading(diagnosis: &Diagnosis) -> String {
@@ -162,10 +163,10 @@ fn what_is_wrong(check: &CheckResult) -> String {
             let is_bias = check.fault.is_none() && check.numerics.is_clean();
             match means::factor(check).filter(|_| is_bias && check.verdict == Verdict::Fail) {
                 Some(factor) => format!("{factor} {place}"),
-                None => format!("{place}, {}", explanation(check)),
+                None => format!("{place}, {}", observation(check)),
             }
         }
-        _ => format!("{} (`{technique}`): {}", check.id.kind, explanation(check)),
+        _ => format!("{} (`{technique}`): {}", check.id.kind, observation(check)),
     }
 }
 
@@ -192,7 +193,7 @@ pub(super) fn light(check: &CheckResult) -> &'static str {
     match (check.id.max_bounces, check.id.emission_on_hit) {
         (1, EmissionOnHit::On) => "direct light",
         (1, EmissionOnHit::Off) => "direct light from light samples",
-        (_, EmissionOnHit::On) => "light",
-        (_, EmissionOnHit::Off) => "light from light samples",
+        (_, EmissionOnHit::On) => "the mean radiance",
+        (_, EmissionOnHit::Off) => "the light from light samples",
     }
 }

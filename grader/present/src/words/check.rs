@@ -3,15 +3,15 @@
 use arty::integrator::Technique;
 
 use verdict::check::{
-    CheckKind, CheckResult, Evidence, LightShares, Noise, PixelGroup, RandomNumbers, RayCounts, TooManyRays,
-    Verdict,
+    CheckKind, CheckResult, Evidence, LightShares, Noise, PixelGroup, RandomNumbers, RayCounts, Reason,
+    TooManyRays, Verdict,
 };
 
 use super::command::{replay_command, replay_of_finding};
 use super::number::{count, list, percent, trimmed};
 use super::{fault, means, numerics, skipped, stability, weights};
 
-/// Why a check ended as it did: one sentence without a full stop. Empty only if nothing is known.
+/// Why a check ended as it did: one sentence without a full stop.
 pub fn explanation(check: &CheckResult) -> String {
     match &check.verdict {
         Verdict::Skipped { why } => return skipped::skipped(why),
@@ -30,10 +30,36 @@ fn what_happened(check: &CheckResult) -> String {
     if let Some(fault) = &check.fault {
         return fault::fault(fault);
     }
-    let measured = check.evidence.as_ref().map_or_else(String::new, |it| of_evidence(it, check));
-    // Bad samples of a picture decide, whatever its mean; the other kinds say themselves where they met them.
-    let of_picture = check.evidence.is_none() || check.mean_test().is_some();
-    if of_picture && !check.numerics.is_clean() { numerics(&check.numerics) } else { measured }
+    if is_decided_by_samples(check) {
+        return numerics(&check.numerics);
+    }
+    match &check.evidence {
+        Some(evidence) => of_evidence(evidence, check),
+        None => of_reason(check.reason).to_owned(),
+    }
+}
+
+/// What is known where nothing was measured.
+fn of_reason(reason: Reason) -> &'static str {
+    match reason {
+        Reason::None => "nothing is wrong",
+        Reason::Bias => "the mean is wrong",
+        Reason::Weights => "the MIS weights are wrong",
+        Reason::Noise => "too noisy to judge",
+        Reason::Efficiency => "noisier than the technique allows",
+        Reason::Randomness => "random numbers are shared, or do not come from the sampler",
+        Reason::RayBudget => "more rays than the sheet allows",
+        Reason::Numerics => "some samples are NaN, infinite or negative",
+        Reason::Timeout => "the program did not finish in time",
+        Reason::Crash => "the program ended early",
+        Reason::Violation => "the program's answer was malformed",
+    }
+}
+
+/// True if samples that are not radiance decided, whatever the mean. Kinds without pictures say themselves where they met
+/// such samples.
+fn is_decided_by_samples(check: &CheckResult) -> bool {
+    !check.numerics.is_clean() && (check.evidence.is_none() || check.mean_test().is_some())
 }
 
 fn of_evidence(evidence: &Evidence, check: &CheckResult) -> String {
@@ -75,6 +101,22 @@ fn efficiency(noise: &Noise, technique: Technique, verdict: &Verdict) -> String 
 const ALIKE: f64 = 0.01;
 
 fn light_pick(shares: &LightShares) -> String {
+    let share = light_share(shares);
+    let Some(Some(excess)) = shares.wrong.map(|wrong| shares.excess.get(wrong as usize).copied().flatten())
+    else {
+        return share;
+    };
+    if !is_common(shares, 1.0 + excess) {
+        format!("{share}: the selection probability you divide by is not the one you sample with")
+    } else if is_alike(1.0 + excess, 1.0 / shares.excess.len() as f64) {
+        format!("{share}: divide by the selection probability")
+    } else {
+        share
+    }
+}
+
+/// What the lights contribute.
+fn light_share(shares: &LightShares) -> String {
     let Some(wrong) = shares.wrong else {
         return "each of three lights contributes what it should".to_owned();
     };
@@ -82,17 +124,21 @@ fn light_pick(shares: &LightShares) -> String {
     let Some(excess) = shares.excess.get(wrong as usize).copied().flatten() else {
         return format!("light {number} of 3 contributes NaN or infinity");
     };
-    let factor = 1.0 + excess;
-    let of_should = percent(factor, if excess.abs() < 0.05 { 2 } else { 0 });
-    let is = |other: f64, factor: f64| (other / factor - 1.0).abs() < ALIKE;
-    if shares.excess.iter().all(|other| other.is_some_and(|other| is(1.0 + other, factor))) {
-        let why = if is(factor, 1.0 / 3.0) { ": divide by the selection probability" } else { "" };
-        return format!("each of three lights contributes {of_should} of what it should{why}");
+    let share = percent(1.0 + excess, if excess.abs() < 0.05 { 2 } else { 0 });
+    if is_common(shares, 1.0 + excess) {
+        format!("each of three lights contributes {share} of what it should")
+    } else {
+        format!("light {number} of 3 contributes {share} of what it should")
     }
-    format!(
-        "light {number} of 3 contributes {of_should} of what it should: the selection probability you divide by is not \
-         the one you sample with"
-    )
+}
+
+/// True if all lights are wrong by this factor: then it is not their selection that is wrong.
+fn is_common(shares: &LightShares, factor: f64) -> bool {
+    shares.excess.iter().all(|other| other.is_some_and(|other| is_alike(1.0 + other, factor)))
+}
+
+fn is_alike(one: f64, other: f64) -> bool {
+    (one - other).abs() < ALIKE * other.abs()
 }
 
 fn randomness(numbers: RandomNumbers) -> String {
@@ -135,6 +181,19 @@ fn ray_budget(rays: &RayCounts) -> String {
         "{all} on a path of {bounces_of}, {room}: {allowed} are enough, even if shadow rays and BSDF samples are traced \
          separately"
     )
+}
+
+/// The same without the place of a sample and without what probably caused it, to stand beside other observations.
+pub(super) fn observation(check: &CheckResult) -> String {
+    match &check.evidence {
+        _ if check.fault.is_some() || !check.was_run() => explanation(check),
+        Some(Evidence::LightPick(shares)) => light_share(shares),
+        Some(Evidence::Stability(test)) => stability::observation(test).unwrap_or_else(|| explanation(check)),
+        _ if is_decided_by_samples(check) => {
+            fault::counts(check.numerics.non_finite, check.numerics.negative)
+        }
+        _ => explanation(check),
+    }
 }
 
 /// What costs no points, but is worth knowing.

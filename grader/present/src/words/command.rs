@@ -13,7 +13,8 @@ pub fn repeat_command(report: &Report, check: &CheckId) -> String {
     let [path, assignment] =
         [&report.submission.path, &report.provenance.assignment].map(|text| quote(Path::new(text)));
     let check = quote(Path::new(&check.to_string()));
-    format!("cargo grade {path} --assignment={assignment} --seed={} --only={check}", report.provenance.seed)
+    let assignment = if assignment.is_empty() { assignment } else { format!(" --assignment={assignment}") };
+    format!("cargo grade {path}{assignment} --seed={} --only={check}", report.provenance.seed)
 }
 
 /// The command that follows a path of a submission, whose path is given unquoted.

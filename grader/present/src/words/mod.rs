@@ -26,6 +26,7 @@ pub use check::{about, explanation, remarks, remarks_with_replay};
 pub use command::{repeat_command, replay_command, replay_of};
 pub use fault::{fault, numerics};
 pub use number::{count, number_of_points};
+pub(crate) use points::staff_only;
 pub use points::{not_covered, sum};
 pub use sandbox::missing_layers;
 pub use skipped::{not_run, skipped, why_not};

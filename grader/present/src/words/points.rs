@@ -17,12 +17,17 @@ pub fn sum(report: &Report) -> String {
     )
 }
 
+/// Points that only staff can decide.
+pub(crate) fn staff_only(points: f64) -> String {
+    let is = if points == 1.0 { "is" } else { "are" };
+    format!("up to {} {is} added after submission", number_of_points(points))
+}
+
 /// What the sum of points does not cover; empty if it covers everything.
 pub fn not_covered(points: &Points) -> String {
     let mut parts = Vec::new();
     if points.staff_only > 0.0 {
-        let is = if points.staff_only == 1.0 { "is" } else { "are" };
-        parts.push(format!("up to {} {is} added after submission", number_of_points(points.staff_only)));
+        parts.push(staff_only(points.staff_only));
     }
     match points.manual {
         Some(given) => parts.push(format!("{given} of {} given by your tutor", points.manual_max)),

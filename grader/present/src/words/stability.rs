@@ -32,6 +32,12 @@ pub(super) fn remarks(test: &StabilityTest) -> impl Iterator<Item = (String, &St
     others.map(|(_, finding)| (sentence(finding), finding))
 }
 
+/// What decided, without the place of a sample and without a cause; none if nothing graded is wrong.
+pub(super) fn observation(test: &StabilityTest) -> Option<String> {
+    let finding = test.findings.iter().find(|finding| finding.is_graded)?;
+    Some(format!("{}, {}", scene_of(&finding.place), what(&finding.deviation)))
+}
+
 fn sentence(finding: &StabilityFinding) -> String {
     let StabilityFinding { place: at, deviation, likely_cause, first, .. } = finding;
     let first = match (first, deviation) {
@@ -47,10 +53,10 @@ fn sentence(finding: &StabilityFinding) -> String {
         }
         (None, _) => String::new(),
     };
-    format!("{}, {}{first}; likely cause: {}", where_(at), what(deviation), cause(likely_cause))
+    format!("{}, {}{first}; likely cause: {}", scene_of(at), what(deviation), cause(likely_cause))
 }
 
-fn where_(place: &Place) -> String {
+fn scene_of(place: &Place) -> String {
     match place {
         Place::Unchanged => "in the unchanged scene".to_owned(),
         Place::Scaled(n) => format!("in a scene 2{} times as large", superscript(*n)),

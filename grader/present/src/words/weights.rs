@@ -80,6 +80,9 @@ fn why(light: WeightForm, bsdf: WeightForm) -> String {
         {
             format!("in both weights, {}", fault(light).unwrap_or_else(|| unclear(light)))
         }
+        (WeightForm::Other, WeightForm::Other) => {
+            "neither weight is a simple function of the densities".to_owned()
+        }
         _ => {
             let of = |name: &str, form| fault(form).map(|fault| format!("in the weight of {name}, {fault}"));
             let found = [of("light samples", light), of("BSDF samples", bsdf)];
@@ -121,7 +124,7 @@ fn fault(form: WeightForm) -> Option<String> {
         0 => faults.push("the densities are ignored".to_owned()),
         _ => faults.push(format!("the density ratio has the exponent {ratio} instead of 1")),
     }
-    let sign = ratio.signum() | 1;
+    let sign = if ratio < 0 { -1 } else { 1 };
     let [distance, cos, lights, area] = [distance, cos, lights, area].map(|exponent| sign * exponent);
     let (of_distance, of_cos) = (power("distance", distance), power("cos θ", cos));
     match (distance, cos) {
@@ -165,7 +168,7 @@ fn unclear(form: WeightForm) -> String {
             )
         }
         WeightForm::Constant(_) | WeightForm::Other => {
-            "the weight is no simple function of the densities".to_owned()
+            "it is not a simple function of the densities".to_owned()
         }
     }
 }

@@ -5,7 +5,6 @@
 
 use std::io::{self, Write};
 
-use anstyle::{AnsiColor, Style};
 use comfy_table::presets::NOTHING;
 use comfy_table::{Attribute, Cell, CellAlignment, Color, ContentArrangement, Table};
 
@@ -16,6 +15,11 @@ use verdict::submission::SourceFinding;
 use verdict::text::harmless;
 
 use crate::words::{self, count};
+use lines::{bold, paragraph};
+
+mod lines;
+
+pub(crate) use lines::{loud, one_line, paint};
 
 /// The table of tasks, and what is wrong.
 pub fn print_summary(report: &Report) {
@@ -143,7 +147,7 @@ fn missing(task: &TaskResult, report: &Report) -> String {
         parts.push(format!("{} did not pass, see below", count(failed, "check")));
     }
     if task.staff_only > 0.0 {
-        parts.push(format!("up to {} decided after submission", words::number_of_points(task.staff_only)));
+        parts.push(words::staff_only(task.staff_only));
     }
     parts.join("; ")
 }
@@ -194,56 +198,6 @@ fn write_remarks(out: &mut impl Write, report: &Report, width: Option<usize>) ->
     Ok(())
 }
 
-/// A text, indented; broken at the width of a terminal.
-fn paragraph(out: &mut impl Write, indent: &str, text: &str, width: Option<usize>) -> io::Result<()> {
-    match width {
-        Some(width) => {
-            let options = textwrap::Options::new(width).initial_indent(indent).subsequent_indent(indent);
-            // Commands and paths are not broken inside.
-            let options = options
-                .break_words(false)
-                .word_splitter(textwrap::WordSplitter::NoHyphenation)
-                .word_separator(textwrap::WordSeparator::AsciiSpace);
-            writeln!(out, "{}", textwrap::fill(text, options))
-        }
-        None => writeln!(out, "{indent}{text}"),
-    }
-}
-
-/// As much of a text as fits in a line of the terminal.
-pub(crate) fn one_line(text: &str) -> String {
-    let width = textwrap::termwidth().saturating_sub(1).max(20);
-    let text = text.lines().next().unwrap_or_default();
-    if text.chars().count() <= width {
-        return text.to_owned();
-    }
-    text.chars().take(width - 1).chain(['…']).collect()
-}
-
-/// A text in the colour of a verdict.
-pub(crate) fn paint(verdict: &Verdict, text: &str) -> String {
-    let color = match verdict {
-        Verdict::Pass => AnsiColor::Green,
-        Verdict::Inconclusive | Verdict::Skipped { .. } => AnsiColor::Yellow,
-        Verdict::Fail | Verdict::NotRun { .. } => AnsiColor::Red,
-    };
-    let style = color.on_default();
-    format!("{style}{text}{style:#}")
-}
-
-fn bold(text: &str) -> String {
-    let style = Style::new().bold();
-    format!("{style}{text}{style:#}")
-}
-
-/// The word for a verdict, where failures must be found at a glance.
-pub(crate) fn loud(verdict: &Verdict) -> &'static str {
-    match verdict {
-        Verdict::Fail => "FAIL",
-        other => words::verdict(other),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -286,7 +240,7 @@ mod tests {
     fn a_cause_that_is_unknown_is_one_sentence() {
         let mut report = report("x");
         let text = shown(&report, Some(120));
-        let expected = "Likely cause (50 % sure): x\n  seen: light is 0.88 ± 0.01 times what it should be in x (`nee`)\n  \
+        let expected = "Likely cause (50 % sure): x\n  seen: the mean radiance is 0.88 ± 0.01 times what it should be in x (`nee`)\n  \
                         hint: x\n";
         assert!(text.contains(expected), "{text}");
         report.diagnosis[0].cause = Cause::Unknown { several_fit: false };
@@ -304,7 +258,7 @@ mod tests {
         let own = VarianceOf { technique: report.checks[0].id.technique, ratio: 2.5 };
         report.checks[0].evidence =
             Some(Evidence::Efficiency(Noise { ratios: vec![own], as_noisy_as: None, is_noisier: true }));
-        let text = shown(&report, Some(80));
+        let text = shown(&report, None);
         assert!(text.contains("up to 1.5 points are added after submission"), "{text}");
         assert!(
             text.contains("Remarks (they cost no points)") && text.contains("2.5 times the variance"),

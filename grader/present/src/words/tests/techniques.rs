@@ -1,0 +1,98 @@
+use super::*;
+
+#[test]
+fn noise_names_the_technique_that_is_missing() {
+    let noise = |ratio: f64, as_noisy_as| Noise {
+        ratios: vec![VarianceOf { technique: Technique::Nee, ratio }],
+        as_noisy_as,
+        is_noisier: ratio > 1.5,
+    };
+    for (text, expected) in [
+        (
+            passes(Evidence::Efficiency(noise(1.02, None))),
+            "1.02 times the variance of the solution with `nee`",
+        ),
+        (
+            fails(Evidence::Efficiency(noise(36.4, Some(Technique::Bsdf)))),
+            "36 times the variance of the solution with `nee`, as much as BSDF sampling: light samples do not reduce it",
+        ),
+        (
+            fails(Evidence::Efficiency(Noise { ratios: Vec::new(), ..noise(1.0, None) })),
+            "the image has no noise at all: every sample is the same",
+        ),
+    ] {
+        assert_eq!(text, expected);
+    }
+    let noisier = check(Verdict::Pass, Evidence::Efficiency(noise(2.5, None)));
+    let expected = "right, but with 2.5 times the variance of the solution at the same number of samples";
+    assert_eq!(remarks(&noisier), [expected]);
+}
+
+#[test]
+fn selection_is_only_blamed_where_lights_differ() {
+    let shares = |excess, wrong| Evidence::LightPick(LightShares { excess, wrong });
+    for (excess, expected) in [
+        (
+            [Some(-0.667), Some(0.0), Some(0.2)],
+            "light 1 of 3 contributes 33 % of what it should: the selection probability you divide by is not the one you \
+             sample with",
+        ),
+        (
+            [Some(-0.0034), Some(0.0), Some(0.2)],
+            "light 1 of 3 contributes 99.66 % of what it should: the selection probability you divide by is not the one \
+             you sample with",
+        ),
+        (
+            [Some(-2.0 / 3.0); 3],
+            "each of three lights contributes 33 % of what it should: divide by the selection probability",
+        ),
+        ([Some(1.0); 3], "each of three lights contributes 200 % of what it should"),
+        ([None, Some(0.0), Some(0.0)], "light 1 of 3 contributes NaN or infinity"),
+    ] {
+        assert_eq!(fails(shares(excess, Some(0))), expected);
+    }
+    assert_eq!(passes(shares([Some(0.0); 3], None)), "each of three lights contributes what it should");
+}
+
+#[test]
+fn random_numbers_and_rays() {
+    let shared = RandomNumbers::SharedByPixels { excess: 3.11, pixels: PixelGroup::Row };
+    let rays = |excess| {
+        Evidence::RayBudget(RayCounts {
+            excess,
+            lights: 8,
+            shadow_rays_at_mirrors: true,
+            shadow_rays_without_lights: true,
+        })
+    };
+    let too_many = |bounces, shadow_rays, rays| {
+        Some(TooManyRays { bounces, shadow_rays, rays, allowed: 1 + 3 * bounces })
+    };
+    for (text, expected) in [
+        (
+            passes(Evidence::Randomness(RandomNumbers::Independent)),
+            "pixels, batches and seeds are independent and repeatable",
+        ),
+        (
+            fails(Evidence::Randomness(RandomNumbers::SameImage([0, 3]))),
+            "different seeds give the same image (batches 0 and 3): the random numbers do not come from the sampler",
+        ),
+        (
+            fails(Evidence::Randomness(shared)),
+            "pixels share random numbers: sums over rows have 3.1 times the variance of independent pixels",
+        ),
+        (passes(rays(None)), "at most one shadow ray per bounce"),
+        (
+            fails(rays(too_many(1, 8, 10))),
+            "8 shadow rays on a path of 1 bounce, in a room with 8 lights: the sheet asks for one per bounce",
+        ),
+        (
+            fails(rays(too_many(3, 1, 40))),
+            "40 rays on a path of 3 bounces, in a room with 8 lights: 10 rays are enough, even if shadow rays and BSDF \
+             samples are traced separately",
+        ),
+    ] {
+        assert_eq!(text, expected);
+    }
+    assert_eq!(remarks(&check(Verdict::Pass, rays(None))).len(), 2);
+}
