@@ -32,6 +32,10 @@ mod tests {
             std::fs::write(&file, &current).expect("it can be written");
         }
         let kept = std::fs::read_to_string(&file).unwrap_or_default().replace("\r\n", "\n");
-        assert!(kept == current, "{} is stale: run UPDATE_SCHEMA=1 cargo test -p verdict schema", file.display());
+        assert!(
+            kept == current,
+            "{} is stale: run UPDATE_SCHEMA=1 cargo test -p verdict schema",
+            file.display()
+        );
     }
 }

@@ -178,6 +178,7 @@ fn what_is_right(check: &CheckResult) -> String {
             return format!("each of three lights contributes what it should (`{technique}`)");
         }
         CheckKind::RayBudget => return format!("no path traces too many rays (`{technique}`)"),
+        CheckKind::PathLength => return format!("paths are as long as allowed (`{technique}`)"),
         CheckKind::Stability => return format!("extreme scenes are right (`{technique}`)"),
         CheckKind::HiddenVariants => return format!("random scenes are right (`{technique}`)"),
         CheckKind::Efficiency => "the variance",

@@ -3,8 +3,8 @@
 use arty::integrator::Technique;
 
 use verdict::check::{
-    CheckKind, CheckResult, Evidence, LightShares, Noise, PixelGroup, RandomNumbers, RayCounts, Reason,
-    TooManyRays, Verdict,
+    CheckKind, CheckResult, Evidence, LightShares, Noise, PathLengths, PixelGroup, RandomNumbers, RayCounts,
+    Reason, TooManyRays, Verdict,
 };
 
 use super::command::{replay_command, replay_of_finding};
@@ -73,6 +73,7 @@ fn of_evidence(evidence: &Evidence, check: &CheckResult) -> String {
         Evidence::LightPick(shares) => light_pick(shares),
         Evidence::MisWeights(test) => weights::weights(test),
         Evidence::Randomness(numbers) => randomness(*numbers),
+        Evidence::PathLength(paths) => path_length(paths),
         Evidence::RayBudget(rays) => ray_budget(rays),
         Evidence::Stability(test) => stability::stability(test, verdict),
     }
@@ -163,6 +164,18 @@ fn randomness(numbers: RandomNumbers) -> String {
             let excess = trimmed(excess, 1);
             format!("pixels share random numbers: {sums} {excess} times the variance of independent pixels")
         }
+    }
+}
+
+fn path_length(paths: &PathLengths) -> String {
+    let asked = count(paths.max_bounces as usize, "bounce");
+    match paths.limit {
+        None => format!("paths are given up to {asked}"),
+        Some(limit) => format!(
+            "no path gets beyond {} where `max_bounces` allows {}: only `max_bounces` and Russian roulette may end a path",
+            count(limit as usize, "bounce"),
+            paths.max_bounces
+        ),
     }
 }
 
@@ -263,6 +276,7 @@ pub fn about(kind: CheckKind) -> &'static str {
         CheckKind::Randomness => {
             "compares renderings with each other: each random number must come from the sampler and be used once"
         }
+        CheckKind::PathLength => "counts the bounces of paths in a closed room of mirrors",
         CheckKind::RayBudget => "counts the rays of each path",
         CheckKind::Stability => "tests very small and very large scenes, radiances and densities",
         CheckKind::WhiteFurnace => {
