@@ -1,4 +1,4 @@
-//! From a hand-in's source to a program.
+//! From a submission's source to a program.
 
 mod cargo;
 mod compile;
@@ -13,6 +13,6 @@ mod shape;
 #[path = "shape_elsewhere.rs"]
 mod shape;
 
-pub use compile::{HandInProgram, compile, differences, recipe};
 pub(crate) use compile::compile_empty;
+pub use compile::{SubmissionProgram, compile, differences, recipe};
 pub use framework::Framework;

@@ -8,8 +8,8 @@ use host::protocol::{ProbeJob, ScriptedBsdf, ScriptedLight, ScriptedScene};
 use verdict::check::{OnlyWay, OnlyWayWeight};
 
 use super::{NOISE, TOLERATED, mean_and_error};
-use harness::job::JobError;
 use crate::scenes;
+use harness::job::JobError;
 
 /// The weights of these lights.
 pub(super) struct OnlyWayTest {
