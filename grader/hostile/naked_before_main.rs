@@ -52,14 +52,14 @@ extern "C" fn first() {
     for folder in ["/", "/tmp", ".", "..", "@ROOT@/references", "/proc"] {
         check(format!("list {folder}"), read_dir(folder).is_ok());
     }
-    for file in ["/tmp/arty-owned", "arty-owned", "/dev/shm/arty-owned", "hand-in"] {
+    for file in ["/tmp/arty-owned", "arty-owned", "/dev/shm/arty-owned", "submission"] {
         let open = File::options().create(true).append(true).open(file);
         check(format!("write {file}"), open.is_ok());
     }
-    for program in ["/usr/bin/id", "/bin/true", "/bin/sh", "./hand-in"] {
+    for program in ["/usr/bin/id", "/bin/true", "/bin/sh", "./submission"] {
         check(format!("start {program}"), Command::new(program).output().is_ok());
         let path = format!("{program}\0");
-        if program != "./hand-in" {
+        if program != "./submission" {
             check(format!("become {program}"), call(59, path.as_ptr() as i64, 0, 0, 0) != -13);
         }
     }
@@ -94,13 +94,13 @@ extern "C" fn first() {
         ("stat at", [262, -100, file, 0, 0]),
         ("a path that is not opened", [257, -100, file, 0x20_0000, 0]),
         ("access", [21, file, 0, 0, 0]),
-        ("change modes", [90, c"hand-in".as_ptr() as i64, 0o777, 0, 0]),
-        ("change owners", [92, c"hand-in".as_ptr() as i64, 0, 0, 0]),
+        ("change modes", [90, c"submission".as_ptr() as i64, 0o777, 0, 0]),
+        ("change owners", [92, c"submission".as_ptr() as i64, 0, 0, 0]),
         ("remove", [87, c"main.rs".as_ptr() as i64, 0, 0, 0]),
         ("rename", [82, c"main.rs".as_ptr() as i64, c"x".as_ptr() as i64, 0, 0]),
         ("a folder", [83, c"x".as_ptr() as i64, 0o777, 0, 0]),
         ("a link", [88, c"/etc/passwd".as_ptr() as i64, c"x".as_ptr() as i64, 0, 0]),
-        ("a hard link", [86, c"hand-in".as_ptr() as i64, c"x".as_ptr() as i64, 0, 0]),
+        ("a hard link", [86, c"submission".as_ptr() as i64, c"x".as_ptr() as i64, 0, 0]),
         ("another folder", [80, file, 0, 0, 0]),
         ("another root", [161, file, 0, 0, 0]),
         ("another user", [105, 0, 0, 0, 0]),

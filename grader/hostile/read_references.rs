@@ -12,7 +12,7 @@ impl PathTracer {
             "@ROOT@/scenes/point_plane.yml",
             "render_pt.rs",
             "main.rs",
-            "hand-in",
+            "submission",
             "messages.json",
             "/etc/passwd",
             "/etc/hostname",

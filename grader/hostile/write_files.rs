@@ -9,13 +9,13 @@ impl PathTracer {
         use std::fs;
 
         for path in
-            ["/tmp/arty-owned", "owned", "hand-in", "render_pt.rs", "/dev/shm/arty-owned", "@ROOT@/owned"]
+            ["/tmp/arty-owned", "owned", "submission", "render_pt.rs", "/dev/shm/arty-owned", "@ROOT@/owned"]
         {
             assert!(fs::write(path, "owned").is_err(), "BREACH: {path} is written");
             assert!(fs::remove_file(path).is_err(), "BREACH: {path} is removed");
             assert!(fs::create_dir(path).is_err(), "BREACH: {path} is made");
-            assert!(fs::rename("hand-in", path).is_err(), "BREACH: moved to {path}");
-            assert!(fs::hard_link("hand-in", path).is_err(), "BREACH: linked to {path}");
+            assert!(fs::rename("submission", path).is_err(), "BREACH: moved to {path}");
+            assert!(fs::hard_link("submission", path).is_err(), "BREACH: linked to {path}");
             assert!(std::os::unix::fs::symlink("/etc/passwd", path).is_err(), "BREACH: linked from {path}");
         }
         assert!(fs::remove_dir_all(".").is_err(), "BREACH: its folder is removed");

@@ -2,7 +2,7 @@
 
 /// Has the C library share memory among threads and give back what is freed. To be called before there are other threads.
 ///
-/// Each process of a hand-in begins as a copy of this one's page tables, a hundred times in a grade. Answers of megabytes,
+/// Each process of a submission begins as a copy of this one's page tables, a hundred times in a grade. Answers of megabytes,
 /// taken by one thread after the other, would leave 180 MB behind in a class, and copying the tables of these would take as
 /// long as a twentieth of all grading. Only glibc hoards like that.
 pub(crate) fn stay_small() {

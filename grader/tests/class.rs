@@ -29,10 +29,10 @@ tasks:
 struct Course(tempfile::TempDir);
 
 impl Course {
-    fn new(hand_ins: &[(&str, &str)]) -> Self {
+    fn new(submissions: &[(&str, &str)]) -> Self {
         let course = Self(tempfile::tempdir().expect("a temporary folder"));
         course.write("rubric/rubric.yml", RUBRIC);
-        for (name, source) in hand_ins {
+        for (name, source) in submissions {
             course.write(&format!("class/{name}"), source);
         }
         course
@@ -79,7 +79,7 @@ impl Course {
     }
 
     fn records(&self, out: &str) -> Vec<PathBuf> {
-        let folders = std::fs::read_dir(self.path(out).join("hand-ins")).into_iter().flatten().flatten();
+        let folders = std::fs::read_dir(self.path(out).join("submissions")).into_iter().flatten().flatten();
         folders.map(|folder| folder.path().join("record.json")).filter(|file| file.is_file()).collect()
     }
 }
@@ -100,7 +100,7 @@ fn starter() -> String {
     read("skeleton/src/algorithms/render_pt.rs")
 }
 
-/// A hand-in whose `radiance` does this.
+/// A submission whose `radiance` does this.
 fn that_does(what: &str) -> String {
     format!(
         "use arty::prelude::*;\npub struct PathTracer;\nimpl PathTracer {{ pub fn new(_: Settings) -> Self {{ Self }} }}\n\
@@ -128,7 +128,7 @@ fn mixed() -> Course {
 }
 
 #[test]
-fn every_hand_in_has_a_row_and_costs_nobody_else_anything_whatever_the_order_and_number_of_jobs() {
+fn every_submission_has_a_row_and_costs_nobody_else_anything_whatever_the_order_and_number_of_jobs() {
     let course = mixed();
     course.run(&["--roster=roster.csv", "--out=one", "--jobs=1"]);
     let row = |state: &str, reason: &str, points: f64| (state.to_owned(), reason.to_owned(), Some(points));
@@ -173,8 +173,9 @@ fn every_hand_in_has_a_row_and_costs_nobody_else_anything_whatever_the_order_and
     assert!(gradebook.contains(",'=Zoe,") && gradebook.contains("'=hal()"), "{gradebook}");
     let similar = std::fs::read_to_string(course.path("one/similar.txt")).expect("it is there");
     assert!(similar.contains("names, comments and layout: ann, gus"), "{similar}");
-    let students = std::fs::read_to_string(course.path("one/hand-ins/ann/record.json")).expect("it is there")
-        + &std::fs::read_to_string(course.path("one/hand-ins/ann/report.json")).expect("it is there");
+    let students = std::fs::read_to_string(course.path("one/submissions/ann/record.json"))
+        .expect("it is there")
+        + &std::fs::read_to_string(course.path("one/submissions/ann/report.json")).expect("it is there");
     assert!(!students.contains("gus") && !students.contains("similar"), "a student sees nothing of others");
 }
 
@@ -183,9 +184,9 @@ fn what_was_killed_goes_on_where_it_was() {
     let solution = solution();
     let sources: Vec<(String, String)> =
         (0..6).map(|index| (format!("s{index}/render_pt.rs"), format!("// {index}\n{solution}"))).collect();
-    let hand_ins: Vec<(&str, &str)> =
+    let submissions: Vec<(&str, &str)> =
         sources.iter().map(|(name, source)| (name.as_str(), source.as_str())).collect();
-    let course = Course::new(&hand_ins);
+    let course = Course::new(&submissions);
     let mut child = course
         .command(&["--out=out", "--jobs=1"])
         .stdout(Stdio::null())
@@ -203,7 +204,7 @@ fn what_was_killed_goes_on_where_it_was() {
     let kept = course.records("out").len();
     assert!((2..6).contains(&kept), "{kept} of 6 before it was killed");
     // What was being written is no result.
-    course.write("out/hand-ins/s5/record.json", "{\"schema\": \"arty-rec");
+    course.write("out/submissions/s5/record.json", "{\"schema\": \"arty-rec");
 
     let refused = course.command(&["--out=out"]).output().expect("the program starts");
     assert_eq!(refused.status.code(), Some(2), "it must be told what to do with earlier results");
@@ -213,7 +214,7 @@ fn what_was_killed_goes_on_where_it_was() {
     assert!(told.contains(&format!("{} graded now, {kept} unchanged", 6 - kept)), "{told}");
     assert!(course.results("out").values().all(|(_, _, points)| *points == Some(10.0)));
 
-    // A new hand-in, a changed one and another seed are graded; others are not.
+    // A new submission, a changed one and another seed are graded; others are not.
     course.write("class/s0/render_pt.rs", &starter());
     course.write("class/s6.rs", &solution);
     let told = course.run(&["--out=out", "--resume"]);
@@ -228,7 +229,7 @@ fn regrading_says_what_has_changed_and_a_fault_of_the_machine_costs_nobody_a_sco
     let course = Course::new(&[("ann/render_pt.rs", &solution()), ("bob/render_pt.rs", &starter())]);
     course.run(&["--out=out"]);
     assert!(course.run(&["--out=out", "--regrade"]).contains("0 of 2 scores changed"));
-    let record = course.path("out/hand-ins/bob/record.json");
+    let record = course.path("out/submissions/bob/record.json");
     let text = std::fs::read_to_string(&record).expect("it is there");
     std::fs::write(&record, text.replace("\"1\": 0.0", "\"1\": 4.0")).expect("it can be written");
     let told = course.run(&["--out=out", "--regrade"]);
@@ -317,7 +318,7 @@ fn penalties_follow_the_policy_without_grading_again_and_reach_the_course_system
 }
 
 #[test]
-fn ilias_is_told_by_number_and_of_several_hand_ins_the_last_accepted_counts() {
+fn ilias_is_told_by_number_and_of_several_submissions_the_last_accepted_counts() {
     let course = Course::new(&[
         ("Ex/Sheet/Lee_Ann_al1_301/v1/render_pt.rs", &solution()),
         (
@@ -346,7 +347,7 @@ fn ilias_is_told_by_number_and_of_several_hand_ins_the_last_accepted_counts() {
 }
 
 #[test]
-fn a_packed_hand_in_is_the_same_each_time_and_is_taken_in_again() {
+fn a_packed_submission_is_the_same_each_time_and_is_taken_in_again() {
     let course = Course::new(&[]);
     course.write("mine.rs", &solution());
     course.write("why.txt", "because");

@@ -140,7 +140,7 @@ fn a_closed_pipe_costs_nobody_the_report() {
 
 #[test]
 #[cfg(unix)]
-fn a_machine_without_a_linker_is_not_the_hand_in_s_fault() {
+fn a_machine_without_a_linker_is_not_the_submission_s_fault() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     // Only cargo and rustc are found.
     let tools = folder.path().join("tools");
@@ -158,7 +158,7 @@ fn a_machine_without_a_linker_is_not_the_hand_in_s_fault() {
         .output()
         .expect("the program starts");
     assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
-    assert!(stderr(&output).contains("not even an empty hand-in compiles"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("not even an empty submission compiles"), "{}", stderr(&output));
 }
 
 /// The first program of that name in the search path.

@@ -3,7 +3,7 @@
 //! Times differ from run to run, and with them the numbers of samples; what is asked for here holds with wide margins.
 
 use arty::integrator::Technique;
-use harness::build::{Framework, HandInProgram, compile};
+use harness::build::{Framework, SubmissionProgram, compile};
 use harness::workspace::Workspace;
 use judge::convergence::{Contestant, Options, brief, crops, measure};
 use present::convergence::{save_csv, svg};
@@ -17,18 +17,18 @@ fn solution() -> String {
     std::fs::read_to_string(workspace().solution_file()).expect("the solution is there")
 }
 
-fn program(source: &str) -> HandInProgram {
+fn program(source: &str) -> SubmissionProgram {
     let framework = Framework::build(&workspace()).expect("the framework builds");
     compile(&framework, source, &harness::sandbox::Limits::default())
         .expect("the harness works")
         .expect("it compiles")
 }
 
-fn measured(hand_in: &str) -> Convergence {
-    let (hand_in, solution) = (program(hand_in), program(&solution()));
+fn measured(submission: &str) -> Convergence {
+    let (submission, solution) = (program(submission), program(&solution()));
     let contestant = |name: &str, role, program| Contestant { name: name.to_owned(), role, program };
     let contestants = [
-        contestant("hand-in", Role::Submission, &hand_in),
+        contestant("submission", Role::Submission, &submission),
         contestant("solution", Role::Solution, &solution),
         contestant("BSDF sampling", Role::Baseline, &solution),
     ];
@@ -52,15 +52,15 @@ fn curve(convergence: &Convergence, role: Role) -> &Curve {
 fn a_biased_program_flattens_beside_the_solution() {
     let biased = solution().replace("balance(p_brdf, p_ne)", "1.0");
     let convergence = measured(&biased);
-    let (hand_in, right) = (curve(&convergence, Role::Submission), curve(&convergence, Role::Solution));
+    let (submission, right) = (curve(&convergence, Role::Submission), curve(&convergence, Role::Solution));
     // The image is 1.66 times as bright as it should be. The bootstrap takes an unbiased curve for one that flattens
     // about once in a thousand times (four standard deviations, a little too small).
-    assert!(hand_in.floor && !right.floor, "{convergence:#?}");
+    assert!(submission.floor && !right.floor, "{convergence:#?}");
     let slope = |curve: &Curve| curve.slope.expect("there are points").value;
-    assert!(slope(hand_in) > slope(right) + 0.2, "{} {}", slope(hand_in), slope(right));
-    assert!(hand_in.efficiency.expect("there is a solution").value < 0.5);
+    assert!(slope(submission) > slope(right) + 0.2, "{} {}", slope(submission), slope(right));
+    assert!(submission.efficiency.expect("there is a solution").value < 0.5);
     assert_eq!(right.efficiency.map(|estimate| estimate.value), Some(1.0));
-    assert!(hand_in.seconds_to_target.is_none() && right.seconds_to_target.is_some());
+    assert!(submission.seconds_to_target.is_none() && right.seconds_to_target.is_some());
     for point in &right.points {
         let parts = point.bias_squared.value + point.variance.value;
         assert!((parts - point.mse.value).abs() < 1e-9 * point.mse.value, "{point:?}");

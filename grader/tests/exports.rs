@@ -165,7 +165,7 @@ fn what_was_built_of_the_same_sources_is_not_built_again() {
         };
         assert_eq!(is_old(), [false; 3], "nothing was built yet");
         std::fs::write(file("skeleton/render_pt.rs"), "another").expect("it can be written");
-        assert_eq!(is_old(), [true, true, false], "all but the hand-in is the same");
+        assert_eq!(is_old(), [true, true, false], "all but the submission is the same");
         std::fs::write(file("skeleton/b.css"), "another").expect("it can be written");
         std::fs::write(file("Cargo.lock"), "Cargo.lock").expect("it can be written");
         assert_eq!(is_old(), [false; 3], "it was built of others");

@@ -1,4 +1,4 @@
-//! Hand-ins that attack: what becomes of each, and that nobody else is harmed.
+//! Submissions that attack: what becomes of each, and that nobody else is harmed.
 #![cfg(target_os = "linux")]
 
 use std::path::PathBuf;
@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use arty::integrator::{Settings, Technique};
 use arty::scene::SceneDescription;
-use harness::build::{Framework, HandInProgram, compile};
+use harness::build::{Framework, SubmissionProgram, compile};
 use harness::host_process::HostProcess;
 use harness::sandbox::{Level, Limits, Machine};
 use harness::workspace::Workspace;
@@ -20,7 +20,7 @@ use verdict::submission::Submission;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Index {
-    hand_ins: Vec<Attack>,
+    submissions: Vec<Attack>,
 }
 
 #[derive(Deserialize)]
@@ -33,7 +33,7 @@ struct Attack {
     says: String,
 }
 
-/// What must become of a hand-in; the index says what each means.
+/// What must become of a submission; the index says what each means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum Outcome {
@@ -77,12 +77,12 @@ fn grade_source(workspace: &Workspace, source: String) -> Report {
         only: vec![CHECK.to_owned()],
         limits: limits(),
     };
-    grade(workspace, &submission, &options, |_| {}).expect("no hand-in makes the harness fail")
+    grade(workspace, &submission, &options, |_| {}).expect("no submission makes the harness fail")
 }
 
-/// A hand-in that everybody can rely on.
+/// A submission that everybody can rely on.
 struct Honest {
-    program: HandInProgram,
+    program: SubmissionProgram,
     scene: SceneDescription,
 }
 
@@ -172,7 +172,8 @@ fn every_attack_ends_as_it_must_and_harms_nobody_else() {
     let mut complaints = Vec::new();
     // One alone: HOSTILE=name cargo test -p grader --test hostile
     let only = std::env::var("HOSTILE").ok();
-    for attack in index.hand_ins.iter().filter(|attack| only.as_ref().is_none_or(|only| *only == attack.file))
+    for attack in
+        index.submissions.iter().filter(|attack| only.as_ref().is_none_or(|only| *only == attack.file))
     {
         let file = folder.join(format!("{}.rs", attack.file));
         let source = std::fs::read_to_string(&file).expect("the file is there");
@@ -183,7 +184,7 @@ fn every_attack_ends_as_it_must_and_harms_nobody_else() {
         let complaint = complaint(attack, &report);
         complaints
             .extend(complaint.map(|complaint| format!("{} ({}): {complaint}", attack.file, attack.threat)));
-        assert!(honest.renders() == right, "{}: the next hand-in renders something else", attack.file);
+        assert!(honest.renders() == right, "{}: the next submission renders something else", attack.file);
     }
     assert!(complaints.is_empty(), "{}", complaints.join("\n\n"));
     assert!(!std::path::Path::new("/tmp/arty-owned").exists());
@@ -194,7 +195,8 @@ fn the_corpus_and_its_index_are_about_the_same_files() {
     let folder = workspace().root().join("grader/hostile");
     let text = std::fs::read_to_string(folder.join("index.yml")).expect("the index is there");
     let index: Index = serde_yaml::from_str(&text).expect("the index is sound");
-    let mut named: Vec<String> = index.hand_ins.iter().map(|attack| format!("{}.rs", attack.file)).collect();
+    let mut named: Vec<String> =
+        index.submissions.iter().map(|attack| format!("{}.rs", attack.file)).collect();
     named.sort();
     let mut there: Vec<String> = std::fs::read_dir(&folder)
         .expect("the folder is there")
@@ -207,7 +209,7 @@ fn the_corpus_and_its_index_are_about_the_same_files() {
 }
 
 #[test]
-fn the_report_tells_how_the_hand_in_was_confined_and_what_it_reached_for() {
+fn the_report_tells_how_the_submission_was_confined_and_what_it_reached_for() {
     let workspace = workspace();
     let source = std::fs::read_to_string(workspace.solution_file()).expect("the solution is there");
     let report = grade_source(&workspace, format!("{source}\nuse std::fs::File as _;\n"));
@@ -245,7 +247,7 @@ fn without_a_sandbox_the_report_says_so() {
 fn where_a_sandbox_is_asked_for_nothing_is_graded_without() {
     let workspace = workspace();
     let submission = intake::read(&workspace.solution_file()).expect("the solution is there");
-    let limits = Limits { sandbox: false, least: Level::Medium, ..limits() };
+    let limits = Limits { sandbox: false, min_level: Level::Medium, ..limits() };
     let options =
         Options { assignment: ASSIGNMENT.to_owned(), seed: 1, threads: 2, only: Vec::new(), limits };
     let error = grade(&workspace, &submission, &options, |_| {}).expect_err("it is refused").to_string();
@@ -269,9 +271,9 @@ fn children_of(parent: u32) -> Vec<u32> {
 }
 
 #[test]
-fn a_grader_that_is_killed_leaves_no_hand_in_behind_that_runs() {
+fn a_grader_that_is_killed_leaves_no_submission_behind_that_runs() {
     let workspace = workspace();
-    for (attack, name) in [("sleep", "hand-in"), ("const_loop", "rustc")] {
+    for (attack, name) in [("sleep", "submission"), ("const_loop", "rustc")] {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let mut grader = std::process::Command::new(env!("CARGO_BIN_EXE_grader"))
             .args(["grade", "--no-report", "--assignment", ASSIGNMENT])
@@ -287,7 +289,7 @@ fn a_grader_that_is_killed_leaves_no_hand_in_behind_that_runs() {
             called.trim() == name
         };
         let mut running: Option<(u32, Instant)> = None;
-        // It has to be the same one for a while: rustc is asked for its version first, and honest hand-ins are short.
+        // It has to be the same one for a while: rustc is asked for its version first, and honest submissions are short.
         while running.is_none_or(|(_, since)| since.elapsed() < Duration::from_secs(2)) {
             assert!(start.elapsed() < Duration::from_secs(300), "{attack}: it never runs");
             assert!(grader.try_wait().expect("it can be asked").is_none(), "{attack}: it ended too soon");

@@ -1,4 +1,4 @@
-//! The pages of a class and of its hand-ins, made by the program and used in a browser as a person would.
+//! The pages of a class and of its submissions, made by the program and used in a browser as a person would.
 //!
 //! Without Chromium the test says that it was left out. The checks of the rubric below need few samples, and seeds are
 //! fixed: each run gives the same pages. With `ARTY_SCREENSHOTS=DIR`, pictures of the pages are left there to look at.
@@ -80,7 +80,7 @@ fn both_pages_do_what_a_person_expects() {
     let Some(mut browser) = Browser::start() else { return };
     let folder = tempfile::tempdir().expect("a temporary folder");
     let out = graded(folder.path());
-    let ann = out.join("hand-ins/ann");
+    let ann = out.join("submissions/ann");
     nothing_hidden_is_in_the_students_edition(&out);
     what_a_page_must_not_do_is_seen(&mut browser, &ann.join("report.html"), folder.path());
     a_report_can_be_looked_at(&mut browser, &ann.join("report-tutor.html"));
@@ -88,7 +88,7 @@ fn both_pages_do_what_a_person_expects() {
     a_class_can_be_sorted_and_searched(&mut browser, &out);
     for key in ["bob", "cem", "dan"] {
         for page in ["report.html", "report-tutor.html"] {
-            browser.open(&out.join("hand-ins").join(key).join(page), 1000, 800);
+            browser.open(&out.join("submissions").join(key).join(page), 1000, 800);
             assert_eq!(browser.complaints(), Vec::<String>::new(), "{key}, {page}");
             assert_ne!(browser.text("document.title"), "taken", "{key}, {page}");
         }
@@ -101,7 +101,7 @@ fn both_pages_do_what_a_person_expects() {
 fn nothing_hidden_is_in_the_students_edition(out: &Path) {
     for key in ["ann", "bob", "cem", "dan"] {
         let read = |name: &str| {
-            std::fs::read_to_string(out.join("hand-ins").join(key).join(name)).expect("it is there")
+            std::fs::read_to_string(out.join("submissions").join(key).join(name)).expect("it is there")
         };
         let (student, tutor) = (read("report.html"), read("report-tutor.html"));
         assert!(!student.contains("hidden-variants"), "{key}");
@@ -112,7 +112,7 @@ fn nothing_hidden_is_in_the_students_edition(out: &Path) {
     }
 }
 
-/// Were a hand-in's markup to get into a page, the policy would stop it, and this test would know.
+/// Were a submission's markup to get into a page, the policy would stop it, and this test would know.
 fn what_a_page_must_not_do_is_seen(browser: &mut Browser, page: &Path, folder: &Path) {
     let text = std::fs::read_to_string(page).expect("it is there");
     let taken = folder.join("taken.html");
@@ -161,15 +161,15 @@ fn a_report_can_be_looked_at(browser: &mut Browser, page: &Path) {
     browser.press("0");
 
     // The wipe: all of it is the reference.
-    let hand_in = browser.ask(SHOWN);
+    let submission = browser.ask(SHOWN);
     browser.focus("document.querySelector('[name=wipe]')");
     browser.press("Home");
     let wiped = browser.ask(SHOWN);
     browser.press("End");
-    assert_eq!(browser.ask(SHOWN), hand_in, "and back");
+    assert_eq!(browser.ask(SHOWN), submission, "and back");
     browser.click("document.querySelector('[name^=mode][value=reference]')", (0.5, 0.5));
     assert_eq!(browser.ask(SHOWN), wiped);
-    assert_ne!(wiped, hand_in);
+    assert_ne!(wiped, submission);
     for mode in ["difference", "z", "flip"] {
         let before = browser.ask(SHOWN);
         browser.click(&format!("document.querySelector('[name^=mode][value={mode}]')"), (0.5, 0.5));
@@ -200,7 +200,7 @@ fn a_report_can_be_looked_at(browser: &mut Browser, page: &Path) {
 
 /// Runs the command of a pixel, as somebody who has copied it.
 fn follow(command: &str, page: &Path) {
-    // In the folder in which the class was graded: that of `class-report/hand-ins/ann/report-tutor.html`.
+    // In the folder in which the class was graded: that of `class-report/submissions/ann/report-tutor.html`.
     let folder = page.ancestors().nth(4).expect("it lies deep enough");
     let arguments = command.strip_prefix("cargo grader ").expect(command);
     let output = Command::new(env!("CARGO_BIN_EXE_grader"))
@@ -228,12 +228,12 @@ fn a_report_can_be_used_without_a_mouse(browser: &mut Browser, page: &Path) {
     browser.press("ArrowRight");
     browser.press("ArrowDown");
     assert!(browser.text(PROBE).starts_with("pixel (81, 65)"), "{}", browser.text(PROBE));
-    let hand_in = browser.ask(SHOWN);
+    let submission = browser.ask(SHOWN);
     browser.press("2");
     let reference = browser.ask(SHOWN);
-    assert_ne!(reference, hand_in);
+    assert_ne!(reference, submission);
     browser.press("f");
-    assert_eq!(browser.ask(SHOWN), hand_in, "flipped back");
+    assert_eq!(browser.ask(SHOWN), submission, "flipped back");
     browser.press("f");
     assert_eq!(browser.ask(SHOWN), reference);
     browser.press("1");
@@ -245,7 +245,7 @@ fn a_report_can_be_used_without_a_mouse(browser: &mut Browser, page: &Path) {
     assert_eq!(browser.text("document.querySelector('[name=exposure]').value"), "0.5");
     browser.press("0");
     browser.press("m");
-    assert_eq!(browser.ask(SHOWN), hand_in, "all as it was");
+    assert_eq!(browser.ask(SHOWN), submission, "all as it was");
     assert_eq!(browser.complaints(), Vec::<String>::new());
 }
 
@@ -294,8 +294,8 @@ fn look(browser: &mut Browser, out: &Path, to: &Path) {
     std::fs::create_dir_all(to).expect("it can be made");
     for (page, name) in [
         ("class.html", "class"),
-        ("hand-ins/ann/report-tutor.html", "report"),
-        ("hand-ins/bob/report.html", "wrong"),
+        ("submissions/ann/report-tutor.html", "report"),
+        ("submissions/bob/report.html", "wrong"),
     ] {
         for (look, width, media, scheme) in [
             ("light", 1280, "", "light"),

@@ -8,10 +8,10 @@ use verdict::error::{Error, Result};
 use verdict::report::{Report, TaskState};
 use verdict::rubric::Rubric;
 
-/// The points that a person gave one hand-in for one task.
+/// The points that a person gave one submission for one task.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mark {
-    /// BLAKE3 of the hand-in's source, as in its report.
+    /// BLAKE3 of the submission's source, as in its report.
     pub submission: String,
     /// The task.
     pub task: String,
@@ -50,12 +50,12 @@ impl Marks {
         &self.path
     }
 
-    /// The mark of a hand-in for a task.
+    /// The mark of a submission for a task.
     pub fn find(&self, submission: &str, task: &str) -> Option<&Mark> {
         self.list.iter().find(|mark| mark.submission == submission && mark.task == task)
     }
 
-    /// All marks of a hand-in.
+    /// All marks of a submission.
     pub fn of<'a>(&'a self, submission: &'a str) -> impl Iterator<Item = &'a Mark> {
         self.list.iter().filter(move |mark| !submission.is_empty() && mark.submission == submission)
     }
@@ -70,7 +70,7 @@ impl Marks {
         Ok(arty::image::write_aside(&self.path, |writer| serde_json::to_writer_pretty(writer, &self.list))?)
     }
 
-    /// Puts the marks of a report's hand-in into it.
+    /// Puts the marks of a report's submission into it.
     pub fn apply(&self, report: &mut Report) {
         for task in &mut report.tasks {
             if let Some(mark) = self.find(&report.submission.hash, &task.id) {

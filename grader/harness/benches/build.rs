@@ -1,4 +1,4 @@
-//! How long it takes from a hand-in's source to its running process, and how much of that is the sandbox's.
+//! How long it takes from a submission's source to its running process, and how much of that is the sandbox's.
 //!
 //! `cargo bench -p grader`. The framework is built before, as for a grade.
 
@@ -17,7 +17,7 @@ fn build(criterion: &mut Criterion) {
     let scene = arty::scene::file::load(&workspace.scene_file("cornell_box"))
         .expect("the scene is in the collection")
         .description;
-    let mut group = criterion.benchmark_group("hand-in");
+    let mut group = criterion.benchmark_group("submission");
     group.sample_size(20);
     for (name, sandbox) in [("", true), (", no sandbox", false)] {
         let limits = Limits { sandbox, ..Limits::default() };

@@ -1,4 +1,4 @@
-//! The process that runs a hand-in, seen from the grader.
+//! The process that runs a submission, seen from the grader.
 
 mod expected;
 
@@ -19,12 +19,12 @@ use verdict::check::Fault;
 use verdict::error::{Error, Result};
 use verdict::text::clean;
 
-use crate::build::HandInProgram;
+use crate::build::SubmissionProgram;
 use crate::job::JobError;
 use crate::sandbox::{self, Account, Layers, Profile};
 use expected::Expected;
 
-/// A running hand-in.
+/// A running submission.
 ///
 /// On Linux it ends with the thread that has started it.
 pub struct HostProcess {
@@ -61,7 +61,7 @@ type Answer<T> = std::result::Result<T, JobError>;
 
 impl HostProcess {
     /// Starts the program in a sandbox, with an empty environment, in a folder of its own.
-    pub fn start(program: &HandInProgram, threads: usize) -> Result<Self> {
+    pub fn start(program: &SubmissionProgram, threads: usize) -> Result<Self> {
         let trouble = |error: std::io::Error| {
             let denied = error.kind() == ErrorKind::PermissionDenied;
             let why = if denied {
@@ -69,7 +69,7 @@ impl HostProcess {
             } else {
                 ""
             };
-            Error::Harness(format!("the hand-in's program does not start: {error}{why}"))
+            Error::Harness(format!("the submission's program does not start: {error}{why}"))
         };
         let limits = &program.limits;
         let mut command = Command::new(&program.executable);
@@ -80,7 +80,7 @@ impl HostProcess {
             .current_dir(program.executable.parent().unwrap_or(&program.executable))
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
-            // What a hand-in prints is nobody's verdict.
+            // What a submission prints is nobody's verdict.
             .stderr(Stdio::null());
         let account = Arc::clone(program.account());
         let profile = Profile::Host { program: &program.executable, account: &account, threads };
@@ -118,8 +118,8 @@ impl HostProcess {
 
     /// What the program did instead of starting, if it did not. Its jobs end with the same.
     ///
-    /// Whether programs start at all on this machine is tried with an empty hand-in before: so this is a fault of the
-    /// hand-in.
+    /// Whether programs start at all on this machine is tried with an empty submission before: so this is a fault of the
+    /// submission.
     pub fn fault(&self) -> Option<&Fault> {
         self.failed.as_ref()
     }
@@ -212,7 +212,7 @@ impl HostProcess {
         }
     }
 
-    /// The grader's own mistakes are found here: what the process says of a job is a matter of the hand-in.
+    /// The grader's own mistakes are found here: what the process says of a job is a matter of the submission.
     fn require_scene(&self, scene: u32) -> Result<()> {
         if scene < self.scenes {
             return Ok(());
@@ -244,14 +244,14 @@ impl HostProcess {
 
     /// What the process says next, in time. If it had less than half of that time on a processor, because the machine
     /// had other things to do, it is given `most`.
-    fn answer(&mut self, time: Duration, most: Duration) -> Answer<Response> {
+    fn answer(&mut self, time: Duration, max: Duration) -> Answer<Response> {
         let before = sandbox::processor_time(&self.child);
         let (mut time, mut said) = (time, self.responses.recv_timeout(time));
-        if matches!(said, Err(RecvTimeoutError::Timeout)) && time < most {
+        if matches!(said, Err(RecvTimeoutError::Timeout)) && time < max {
             let worked = before.zip(sandbox::processor_time(&self.child));
             if worked.is_some_and(|(before, now)| now.saturating_sub(before) < time / 2) {
-                said = self.responses.recv_timeout(most - time);
-                time = most;
+                said = self.responses.recv_timeout(max - time);
+                time = max;
             }
         }
         match said {
@@ -274,7 +274,7 @@ impl HostProcess {
         if let Ok(Some(status)) = self.child.try_wait()
             && !self.ended
         {
-            sandbox::blame_machine(status, self.kills, "the hand-in's program")?;
+            sandbox::blame_machine(status, self.kills, "the submission's program")?;
         }
         sandbox::end(&mut self.child);
         Ok(Fault::Crash(self.child.wait().map_or_else(|error| error.to_string(), describe)))

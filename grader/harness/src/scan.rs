@@ -1,4 +1,4 @@
-//! What a hand-in names that it has no business with: files, processes, the network.
+//! What a submission names that it has no business with: files, processes, the network.
 //!
 //! This is for people: it says which line asks for what the sandbox refuses. It guarantees nothing, and costs no points
 //! by itself; the sandbox does not need it. Comments and strings are not code and are never hit.
@@ -13,21 +13,21 @@ const LISTED: usize = 20;
 
 /// Parts of the standard library that reach out of the process.
 const MODULES: [(&str, &str); 6] = [
-    ("process", "a hand-in may neither start nor end processes"),
-    ("fs", "a hand-in has no files"),
-    ("net", "a hand-in has no network"),
-    ("env", "a hand-in has no environment"),
-    ("os", "a hand-in has nothing to ask of the operating system"),
-    ("path", "a hand-in has no files"),
+    ("process", "a submission may neither start nor end processes"),
+    ("fs", "a submission has no files"),
+    ("net", "a submission has no network"),
+    ("env", "a submission has no environment"),
+    ("os", "a submission has nothing to ask of the operating system"),
+    ("path", "a submission has no files"),
 ];
 
 /// Macros that look at the machine that compiles.
 const MACROS: [(&str, &str); 5] = [
-    ("include", "a hand-in is one file"),
-    ("include_str", "a hand-in reads no files, not even when it is compiled"),
-    ("include_bytes", "a hand-in reads no files, not even when it is compiled"),
-    ("env", "a hand-in has no environment, not even when it is compiled"),
-    ("option_env", "a hand-in has no environment, not even when it is compiled"),
+    ("include", "a submission is one file"),
+    ("include_str", "a submission reads no files, not even when it is compiled"),
+    ("include_bytes", "a submission reads no files, not even when it is compiled"),
+    ("env", "a submission has no environment, not even when it is compiled"),
+    ("option_env", "a submission has no environment, not even when it is compiled"),
 ];
 
 /// Looks through a source. One that is no Rust has no findings: the compiler says more about it.
@@ -95,7 +95,7 @@ fn attribute(tokens: &[TokenTree]) -> Option<(String, &'static str)> {
     };
     let found = is_punctuation(mark, '#')
         && (sets_path(&attribute) || (0..inner.len()).any(|start| sets_path(&inner[start..])));
-    found.then(|| ("#[path]".to_owned(), "a hand-in is one file"))
+    found.then(|| ("#[path]".to_owned(), "a submission is one file"))
 }
 
 /// An identifier, raw or not.

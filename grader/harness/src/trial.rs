@@ -1,4 +1,4 @@
-//! Whether hand-ins can be graded on this machine, found out with an empty one before any code of a student is compiled.
+//! Whether submissions can be graded on this machine, found out with an empty one before any code of a student is compiled.
 
 use arty::integrator::{Settings, Technique};
 use arty::math::{Rgb, Vec3};
@@ -13,16 +13,16 @@ use crate::host_process::HostProcess;
 use crate::job::JobError;
 use crate::sandbox::{Level, Limits};
 
-/// Has an empty hand-in compiled, started, and render a picture. What it cannot do is the fault of the machine or of the
-/// framework, and not of the hand-ins that cannot do it either.
+/// Has an empty submission compiled, started, and render a picture. What it cannot do is the fault of the machine or of the
+/// framework, and not of the submissions that cannot do it either.
 ///
 /// # Errors
-/// If it cannot, or if the sandbox is worse than `limits.least`.
-pub fn require_that_hand_ins_work(framework: &Framework, limits: &Limits) -> Result<()> {
+/// If it cannot, or if the sandbox is worse than `limits.min_level`.
+pub fn require_that_submissions_work(framework: &Framework, limits: &Limits) -> Result<()> {
     let program = compile_empty(framework, limits)?;
     let mut process = HostProcess::start(&program, 1)?;
     process.fault().map_or(Ok(()), |fault| Err(failed(fault)))?;
-    require(&Sandbox::new(program.layers, process.layers(), Vec::new()), limits.least)?;
+    require(&Sandbox::new(program.layers, process.layers(), Vec::new()), limits.min_level)?;
     let settings = Settings { technique: Technique::Nee, max_bounces: 1 };
     let rendered = process
         .load(&empty_scene())
@@ -71,13 +71,13 @@ fn empty_scene() -> SceneDescription {
 ///
 /// # Errors
 /// If it is.
-pub fn require(sandbox: &Sandbox, least: Level) -> Result<()> {
-    if sandbox.level >= least {
+pub fn require(sandbox: &Sandbox, min_level: Level) -> Result<()> {
+    if sandbox.level >= min_level {
         return Ok(());
     }
     let Sandbox { level, .. } = sandbox;
     Err(Error::Input(format!(
-        "the sandbox is `{level}` here, and `{least}` is asked for: run `cargo grader doctor` to see what is missing, or \
+        "the sandbox is `{level}` here, and `{min_level}` is asked for: run `cargo grader doctor` to see what is missing, or \
          give --allow-sandbox={level} if you trust everybody whose file is graded"
     )))
 }

@@ -89,7 +89,7 @@ impl Workspace {
         self.variants().join("kill-matrix.md")
     }
 
-    /// The table of how often correct hand-ins fail.
+    /// The table of how often correct submissions fail.
     pub fn calibration_table(&self) -> PathBuf {
         self.variants().join("calibration.md")
     }
@@ -99,7 +99,7 @@ impl Workspace {
         self.variants().join("calibration.svg")
     }
 
-    /// Where Cargo puts the framework that hand-ins are linked against, apart from all other builds.
+    /// Where Cargo puts the framework that submissions are linked against, apart from all other builds.
     pub fn framework_target(&self) -> PathBuf {
         self.root.join("target/framework")
     }

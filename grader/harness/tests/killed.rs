@@ -1,5 +1,5 @@
 //! A machine that has no memory left ends some process, and not always that of whoever is to blame. That is believed when the
-//! kernel says so: any other end is the hand-in's own.
+//! kernel says so: any other end is the submission's own.
 #![cfg(target_os = "linux")]
 
 use std::process::Command;

@@ -1,5 +1,5 @@
-//! What confines a hand-in from its first instruction, tested by itself: sources and programs are not inspected here, so
-//! that code of a hand-in does run before `main`.
+//! What confines a submission from its first instruction, tested by itself: sources and programs are not inspected here, so
+//! that code of a submission does run before `main`.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
 use std::net::TcpListener;
@@ -7,7 +7,7 @@ use std::os::unix::fs::MetadataExt;
 
 use arty::integrator::{Settings, Technique};
 use arty::scene::SceneDescription;
-use harness::build::{Framework, HandInProgram, compile, differences};
+use harness::build::{Framework, SubmissionProgram, compile, differences};
 use harness::host_process::HostProcess;
 use harness::job::apart;
 use harness::sandbox::{Layers, Level, Limits, Machine};
@@ -36,14 +36,14 @@ impl Here {
     }
 
     /// Compiles a source without any inspection.
-    fn compile(&self, source: &str) -> HandInProgram {
+    fn compile(&self, source: &str) -> SubmissionProgram {
         let limits = Limits { inspect: false, ..Limits::default() };
         compile(&self.framework, source, &limits).expect("rustc runs").expect("it compiles")
     }
 
     /// What becomes of a job, and how the process was confined.
-    fn run(&self, program: &HandInProgram) -> (Option<Fault>, Layers) {
-        let mut process = HostProcess::start(program, 1).expect("no hand-in makes the harness fail");
+    fn run(&self, program: &SubmissionProgram) -> (Option<Fault>, Layers) {
+        let mut process = HostProcess::start(program, 1).expect("no submission makes the harness fail");
         let layers = process.layers();
         let settings = Settings { technique: Technique::Nee, max_bounces: 1 };
         let job = RenderJob::new(0, settings, [4, 4], vec![1], 1);
@@ -52,7 +52,7 @@ impl Here {
     }
 }
 
-/// A hand-in that runs this before `main`.
+/// A submission that runs this before `main`.
 fn early(body: &str) -> String {
     with_assembler(
         "\".pushsection .init_array, \\\"aw\\\"\", \".balign 8\", \".quad {first}\", \".popsection\", \"ret\", first = sym first",
@@ -60,7 +60,7 @@ fn early(body: &str) -> String {
     )
 }
 
-/// A hand-in with this assembler in a naked function, and this in a function `first`.
+/// A submission with this assembler in a naked function, and this in a function `first`.
 fn with_assembler(assembler: &str, first: &str) -> String {
     format!(
         "use arty::prelude::*;
@@ -98,14 +98,14 @@ fn code_before_main_reads_starts_and_reaches_nothing() {
     listener.set_nonblocking(true).expect("it can be set");
     assert!(listener.accept().is_err(), "it has connected");
     assert!(!std::path::Path::new("/tmp/arty-owned").exists());
-    // The level is that of any other hand-in.
+    // The level is that of any other submission.
     assert_eq!(layers, Machine::here().layers());
     let (fault, honest) = here.run(&here.compile(&with_assembler("\"ret\"", "")));
     assert_eq!((fault, honest), (None, layers));
 }
 
 #[test]
-fn the_loader_loads_nothing_else_and_the_program_of_another_hand_in_is_out_of_reach() {
+fn the_loader_loads_nothing_else_and_the_program_of_another_submission_is_out_of_reach() {
     let Some(here) = Here::new() else { return };
     let neighbour = here.compile(&with_assembler("\"ret\"", ""));
     let other = neighbour.executable.display().to_string();
@@ -130,7 +130,7 @@ fn the_loader_loads_nothing_else_and_the_program_of_another_hand_in_is_out_of_re
 }
 
 #[test]
-fn a_hand_in_that_never_starts_is_at_fault_and_not_the_grader() {
+fn a_submission_that_never_starts_is_at_fault_and_not_the_grader() {
     let Some(here) = Here::new() else { return };
     for (body, expected) in [("std::process::exit(0)", "status: 0"), ("std::process::abort()", "signal: 6")] {
         let program = here.compile(&early(body));
@@ -183,7 +183,7 @@ fn a_program_of_another_shape_is_found() {
 }
 
 #[test]
-fn no_hand_in_has_the_user_id_or_the_files_of_another() {
+fn no_submission_has_the_user_id_or_the_files_of_another() {
     let Some(here) = Here::new() else { return };
     let programs =
         [here.compile(&with_assembler("\"ret\"", "")), here.compile(&with_assembler("\"ret\"", ""))];

@@ -1,4 +1,4 @@
-//! Hand-ins that take too long. Alone in this file: other tests at the same time would take their time on a processor.
+//! Submissions that take too long. Alone in this file: other tests at the same time would take their time on a processor.
 #![cfg(target_os = "linux")]
 
 use std::time::Duration;
@@ -13,7 +13,7 @@ use host::protocol::RenderJob;
 use verdict::check::Fault;
 
 #[test]
-fn nobody_waits_to_the_end_for_a_hand_in_that_is_too_slow_by_far_unless_it_had_no_time() {
+fn nobody_waits_to_the_end_for_a_submission_that_is_too_slow_by_far_unless_it_had_no_time() {
     let workspace = Workspace::find().expect("the tests run inside the checkout");
     let framework = Framework::build(&workspace).expect("the framework builds");
     let scene = arty::scene::file::load(&workspace.scene_file("point_plane")).expect("it is there");

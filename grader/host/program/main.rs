@@ -1,4 +1,4 @@
-// The fixed program around a hand-in: `render_pt.rs` is put beside this file, and both are compiled by one call of
+// The fixed program around a submission: `render_pt.rs` is put beside this file, and both are compiled by one call of
 // rustc against the prebuilt framework.
 
 #[forbid(unsafe_code)]

@@ -1,10 +1,10 @@
-//! Runs one hand-in and answers the grader's jobs.
+//! Runs one submission and answers the grader's jobs.
 //!
-//! The hand-in is linked into a small fixed program (`program/main.rs`) whose `main` calls `serve`. The process
+//! The submission is linked into a small fixed program (`program/main.rs`) whose `main` calls `serve`. The process
 //! reads [`Request`](protocol::Request)s from its standard input and writes a [`Response`](protocol::Response) to
-//! each to what was its standard output; whatever the hand-in prints goes to standard error. It has no say in
+//! each to what was its standard output; whatever the submission prints goes to standard error. It has no say in
 //! anything else: it gives numbers, and the grader judges them. It is locked in from its start, and tightens that before
-//! it meets the hand-in ([`confine`]).
+//! it meets the submission ([`confine`]).
 //!
 //! Without the feature `serve` there is only the protocol, for the grader.
 

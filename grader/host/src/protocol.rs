@@ -1,4 +1,4 @@
-//! What the grader and the process that runs a hand-in say to each other.
+//! What the grader and the process that runs a submission say to each other.
 //!
 //! Each message is its length in bytes (`u32`, little endian) and that many bytes of postcard.
 
@@ -31,7 +31,7 @@ pub enum Request<'a> {
 pub struct ReplayJob {
     /// Which scene, counted from 0 in the order in which they were sent.
     pub scene: u32,
-    /// What the hand-in's path tracer is made with.
+    /// What the submission's path tracer is made with.
     pub settings: Settings,
     /// Width and height of the picture in pixels.
     pub size: [u32; 2],
@@ -50,7 +50,7 @@ pub struct ReplayJob {
 pub struct RenderJob {
     /// Which scene, counted from 0 in the order in which they were sent.
     pub scene: u32,
-    /// What the hand-in's path tracer is made with.
+    /// What the submission's path tracer is made with.
     pub settings: Settings,
     /// Image width in pixels.
     pub width: u32,
@@ -96,11 +96,11 @@ impl Default for Switches {
 /// Paths through scripted scenes.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ProbeJob {
-    /// What the hand-in's path tracer is made with.
+    /// What the submission's path tracer is made with.
     pub settings: Settings,
     /// The scenes, one after the other.
     pub scenes: Vec<ScriptedScene>,
-    /// How many paths are followed in each: they differ in the hand-in's own random numbers only.
+    /// How many paths are followed in each: they differ in the submission's own random numbers only.
     pub samples: u64,
     /// The seed of these random numbers.
     pub seed: u64,
@@ -161,12 +161,12 @@ pub enum Response {
     Probed(Vec<Vec<ProbedPath>>),
     /// What one path called.
     Replayed(Replayed),
-    /// The hand-in panicked.
+    /// The submission panicked.
     Panicked {
         /// What it said.
         message: String,
     },
-    /// The request made no sense. The grader sends none that does not: whoever says so is a hand-in.
+    /// The request made no sense. The grader sends none that does not: whoever says so is a submission.
     Rejected {
         /// Why.
         message: String,
@@ -191,13 +191,13 @@ pub struct ProbedPath {
 pub struct Replayed {
     /// The radiance that it returned. It may be anything, NaN too.
     pub radiance: [f32; 3],
-    /// Every call of the hand-in, in order.
+    /// Every call of the submission, in order.
     pub calls: Vec<Call>,
     /// Calls beyond those, which were not written down.
     pub left_out: u64,
 }
 
-/// A call of the hand-in.
+/// A call of the submission.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Call {
     /// What was called, as in `Scene::intersect`.

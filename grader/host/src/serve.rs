@@ -87,7 +87,7 @@ fn switches(switches: Switches) -> arty::probe::Switches {
     arty::probe::Switches { emission_on_hit: switches.emission_on_hit }
 }
 
-/// Runs code of the hand-in.
+/// Runs code of the submission.
 fn guarded(answer: impl FnOnce() -> Response) -> Response {
     catch_unwind(AssertUnwindSafe(answer)).unwrap_or_else(|_| Response::Panicked { message: first_panic() })
 }

@@ -1,4 +1,4 @@
-//! Keeping the pipe to the grader apart from what a hand-in reads and prints.
+//! Keeping the pipe to the grader apart from what a submission reads and prints.
 
 use std::fs::File;
 use std::io;
@@ -17,7 +17,7 @@ pub(crate) fn take() -> io::Result<(File, File)> {
     Ok((input.into(), output.into()))
 }
 
-/// The pipe: where requests come from, and where responses go. A hand-in that prints to standard output garbles
+/// The pipe: where requests come from, and where responses go. A submission that prints to standard output garbles
 /// its own answers here.
 #[cfg(windows)]
 pub(crate) fn take() -> io::Result<(File, File)> {

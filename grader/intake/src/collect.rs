@@ -1,4 +1,4 @@
-//! Gathering the files of a hand-in that matter, and choosing among them.
+//! Gathering the files of a submission that matter, and choosing among them.
 
 use std::collections::BTreeSet;
 use std::io::Read;
@@ -8,16 +8,16 @@ use super::archive::{self, Container};
 use super::explanation::{explanation, is_ordinary};
 use super::names::{self, Kind, base};
 use super::text::{decode, with_our_line_ends};
-use super::{Explanation, HandIn, Note, Refusal, limits, md5_of};
+use super::{Explanation, Intake, Note, Refusal, limits, md5_of};
 use verdict::submission::Submission;
 
-/// A file of a hand-in.
+/// A file of a submission.
 struct Found {
     name: String,
     bytes: Vec<u8>,
 }
 
-/// Why nothing more is read of a hand-in.
+/// Why nothing more is read of a submission.
 pub(super) struct Stop;
 
 /// What was found so far.
@@ -113,15 +113,15 @@ impl Collector {
     }
 
     fn offer_archive(&mut self, name: &str, reader: &mut dyn Read, depth: usize) -> Result<(), Stop> {
-        let most = if depth == 0 { limits::ARCHIVE } else { limits::ATTACHMENT };
-        match read_at_most(reader, most) {
+        let max = if depth == 0 { limits::ARCHIVE } else { limits::ATTACHMENT };
+        match read_at_most(reader, max) {
             Ok(Some(bytes)) => {
                 if depth == 0 {
                     self.checksum(&bytes);
                 }
                 return archive::collect(name, &bytes, Container::of(&bytes), depth, self);
             }
-            Ok(None) => self.obstacle(Refusal::TooLarge(name.to_owned(), most + 1)),
+            Ok(None) => self.obstacle(Refusal::TooLarge(name.to_owned(), max + 1)),
             Err(error) => self.obstacle(Refusal::BrokenArchive(name.to_owned(), error.to_string())),
         }
         Ok(())
@@ -158,7 +158,7 @@ impl Collector {
     }
 
     /// Chooses the source that is graded.
-    pub(super) fn conclude(mut self, path: PathBuf, starter: &str) -> HandIn {
+    pub(super) fn conclude(mut self, path: PathBuf, starter: &str) -> Intake {
         let outcome = match self.fatal.take() {
             Some(refusal) => Err(refusal),
             None => self.choose(starter).map(|source| Submission { path, source }),
@@ -171,7 +171,7 @@ impl Collector {
         if self.explanations.iter().any(|explanation| !is_ordinary(explanation)) {
             self.explanations.retain(|explanation| !is_ordinary(explanation));
         }
-        HandIn { outcome, notes: self.notes, explanations: self.explanations, checksums: self.checksums }
+        Intake { outcome, notes: self.notes, explanations: self.explanations, checksums: self.checksums }
     }
 
     fn choose(&mut self, starter: &str) -> Result<String, Refusal> {
@@ -180,7 +180,7 @@ impl Collector {
         if candidates.iter().all(|found| is_starter(&found.bytes)) && self.bad_sources.is_empty() {
             // Course systems rename files, and so do browsers: render_pt(1).rs, maybe beside the starting file.
             let mut others = std::mem::take(&mut self.other_sources);
-            others.retain(|found| is_hand_in(&found.bytes) && !is_starter(&found.bytes));
+            others.retain(|found| is_submission(&found.bytes) && !is_starter(&found.bytes));
             if let Some(first) = others.first() {
                 self.notes.push(Note::OtherName(base(&first.name).to_owned()));
             }
@@ -222,15 +222,15 @@ fn comparable(bytes: &[u8]) -> String {
     with_our_line_ends(&String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)))
 }
 
-/// True for what defines the one thing that every hand-in has to: other files of the framework only name it.
-fn is_hand_in(bytes: &[u8]) -> bool {
+/// True for what defines the one thing that every submission has to: other files of the framework only name it.
+fn is_submission(bytes: &[u8]) -> bool {
     let part = b"struct PathTracer";
     bytes.windows(part.len()).any(|window| window == part)
 }
 
 /// All that a reader gives; `None` if that is more than `most` bytes.
-pub(super) fn read_at_most(reader: &mut dyn Read, most: u64) -> std::io::Result<Option<Vec<u8>>> {
+pub(super) fn read_at_most(reader: &mut dyn Read, max: u64) -> std::io::Result<Option<Vec<u8>>> {
     let mut bytes = Vec::new();
-    reader.take(most + 1).read_to_end(&mut bytes)?;
-    Ok((bytes.len() as u64 <= most).then_some(bytes))
+    reader.take(max + 1).read_to_end(&mut bytes)?;
+    Ok((bytes.len() as u64 <= max).then_some(bytes))
 }

@@ -1,11 +1,11 @@
-//! What can be said of a hand-in before it is compiled.
+//! What can be said of a submission before it is compiled.
 
 use verdict::submission::{FILE_NAME, IntakeFinding};
 
 use super::limits;
 use verdict::text::harmless;
 
-/// Why a hand-in is not graded. Names of files in it are printed as they are, but for characters that would steer a
+/// Why a submission is not graded. Names of files in it are printed as they are, but for characters that would steer a
 /// terminal.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Refusal {
@@ -27,7 +27,7 @@ pub enum Refusal {
     Link(String),
     /// `outside-path`: the source's name in the archive leads out of the archive.
     OutsidePath(String),
-    /// `bomb`: it unpacks to more than any hand-in has.
+    /// `bomb`: it unpacks to more than any submission has.
     Bomb(String),
     /// `nested-archive`: an archive in an archive in an archive.
     NestedArchive(String),
@@ -84,12 +84,12 @@ impl std::fmt::Display for Refusal {
                 )
             }
             Self::TooLarge(name, size) => {
-                let most = if super::names::kind(name) == super::names::Kind::Archive {
+                let max = if super::names::kind(name) == super::names::Kind::Archive {
                     limits::ARCHIVE
                 } else {
                     limits::SOURCE
                 };
-                write!(f, "{}: {size} bytes are too many (at most {most})", harmless(name))
+                write!(f, "{}: {size} bytes are too many (at most {max})", harmless(name))
             }
             Self::NotSource(what) => write!(f, "its {FILE_NAME} is {what}, not a text"),
             Self::Empty => write!(f, "its {FILE_NAME} is empty"),
@@ -97,7 +97,7 @@ impl std::fmt::Display for Refusal {
             Self::NulBytes => write!(f, "its {FILE_NAME} has NUL bytes: it is no text; save it as UTF-8"),
             Self::Link(name) => write!(f, "{} is a link, and links are not followed", harmless(name)),
             Self::OutsidePath(name) => write!(f, "{} leads out of its archive", harmless(name)),
-            Self::Bomb(why) => write!(f, "it unpacks to more than any hand-in has: {why}"),
+            Self::Bomb(why) => write!(f, "it unpacks to more than any submission has: {why}"),
             Self::NestedArchive(name) => {
                 write!(f, "{}: an archive in an archive in an archive is not opened", harmless(name))
             }
@@ -120,7 +120,7 @@ impl std::fmt::Display for Refusal {
     }
 }
 
-/// What is odd about a hand-in that is graded all the same.
+/// What is odd about a submission that is graded all the same.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Note {
     /// `byte-order-mark`: one at the start was removed.

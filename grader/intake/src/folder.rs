@@ -67,7 +67,7 @@ fn collect_file(path: &Path, name: &str, collector: &mut Collector) -> std::resu
 pub(super) fn collect_named_file(path: &Path, collector: &mut Collector) {
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let unreadable = |error: std::io::Error| Refusal::Unreadable(name.clone(), error.to_string());
-    let read = |most| File::open(path).and_then(|mut file| read_at_most(&mut file, most));
+    let read = |max| File::open(path).and_then(|mut file| read_at_most(&mut file, max));
     let kind = names::kind(&name);
     if matches!(kind, Kind::Archive | Kind::UnknownArchive | Kind::Explanation) {
         // Stopping is remembered by the collector, and there is nothing after this file.
@@ -90,7 +90,7 @@ pub(super) fn collect_named_file(path: &Path, collector: &mut Collector) {
     }
 }
 
-/// A path below a folder as the hand-in's owner would name it.
+/// A path below a folder as the submission's owner would name it.
 fn name_in(folder: &Path, path: &Path) -> String {
     path.strip_prefix(folder).unwrap_or(path).to_string_lossy().into_owned()
 }

@@ -67,16 +67,16 @@ pub(super) fn collect(
             }
             continue;
         }
-        let most =
+        let max =
             if names::kind(name) == Kind::Explanation { limits::ATTACHMENT } else { limits::SOURCE + 1 };
-        let Some(blob) = git(repository, &["cat-file", "blob", object], most)? else {
+        let Some(blob) = git(repository, &["cat-file", "blob", object], max)? else {
             collector.obstacle(Refusal::Git(format!("{name} is damaged")));
             continue;
         };
         if names::kind(name) == Kind::Named && differs_on_disk(&folder.join(name), &blob) {
             collector.note(Note::Uncommitted(name.to_owned()));
         }
-        // Archives in a repository are nobody's hand-in.
+        // Archives in a repository are nobody's submission.
         if !matches!(names::kind(name), Kind::Archive | Kind::UnknownArchive)
             && let Err(stop) = collector.offer(name, &mut blob.as_slice(), 0)
         {
@@ -95,7 +95,7 @@ fn differs_on_disk(path: &Path, blob: &[u8]) -> bool {
 }
 
 /// What git prints, at most so many bytes of it; `None` if it fails.
-fn git(repository: &Path, arguments: &[&str], most: u64) -> Result<Option<Vec<u8>>> {
+fn git(repository: &Path, arguments: &[&str], max: u64) -> Result<Option<Vec<u8>>> {
     let mut command = Command::new("git");
     command
         .arg("--no-replace-objects")
@@ -123,9 +123,9 @@ fn git(repository: &Path, arguments: &[&str], most: u64) -> Result<Option<Vec<u8
     let mut child = command.spawn().map_err(trouble)?;
     let mut bytes = Vec::new();
     if let Some(output) = child.stdout.take() {
-        output.take(most).read_to_end(&mut bytes).map_err(trouble)?;
+        output.take(max).read_to_end(&mut bytes).map_err(trouble)?;
     }
-    let cut_off = bytes.len() as u64 >= most;
+    let cut_off = bytes.len() as u64 >= max;
     let status = child.wait().map_err(trouble)?;
     Ok((status.success() || cut_off).then_some(bytes))
 }

@@ -1,6 +1,6 @@
 //! Taking in what was sent: from a file, folder, archive or git repository to the one source that is graded.
 //!
-//! [`take`] looks through a hand-in for files of the name [`FILE_NAME`], wherever they lie. Archives are streamed,
+//! [`take`] looks through a submission for files of the name [`FILE_NAME`], wherever they lie. Archives are streamed,
 //! never unpacked to disk, and nothing that they say is believed: all is counted against the limits of [`limits`].
 //! One archive may lie in another, since course systems pack the archives of students once more. Of a git repository
 //! the last commit counts, read without a checkout. What cannot be graded is a [`Refusal`] with a code, what is odd
@@ -27,9 +27,9 @@ pub use finding::{Note, Refusal};
 
 use collect::Collector;
 
-/// A hand-in as it was taken in.
+/// A submission as it was taken in.
 #[derive(Clone, Debug)]
-pub struct HandIn {
+pub struct Intake {
     /// What is graded, or why nothing is.
     pub outcome: std::result::Result<Submission, Refusal>,
     /// What is odd, but does not keep it from being graded.
@@ -40,12 +40,12 @@ pub struct HandIn {
     pub checksums: Vec<String>,
 }
 
-/// Takes in a hand-in: all files, folders and archives that one student sent. `starter` is the text of the starting
+/// Takes in a submission: all files, folders and archives that one student sent. `starter` is the text of the starting
 /// file, which counts only if there is nothing else; it may be empty.
 ///
 /// # Errors
-/// If a path does not exist, or git is needed and missing. Faults of the hand-in are in its `outcome`.
-pub fn take(paths: &[PathBuf], starter: &str) -> Result<HandIn> {
+/// If a path does not exist, or git is needed and missing. Faults of the submission are in its `outcome`.
+pub fn take(paths: &[PathBuf], starter: &str) -> Result<Intake> {
     let mut collector = Collector::default();
     for path in paths {
         let metadata = std::fs::metadata(path).map_err(|error| Error::file(path, error))?;

@@ -1,4 +1,4 @@
-//! Hand-ins as they come, made in memory or in a temporary folder.
+//! Submissions as they come, made in memory or in a temporary folder.
 
 use std::io::{Cursor, Write};
 use std::path::Path;
@@ -44,7 +44,7 @@ fn gzip(bytes: &[u8]) -> Vec<u8> {
 }
 
 /// A folder with these files, taken in.
-fn take_folder(files: &[(&str, &[u8])]) -> HandIn {
+fn take_folder(files: &[(&str, &[u8])]) -> Intake {
     let folder = tempfile::tempdir().expect("a temporary folder");
     write_all(folder.path(), files);
     take(&[folder.path().to_owned()], STARTER).expect("the folder is there")
@@ -58,16 +58,16 @@ fn write_all(folder: &Path, files: &[(&str, &[u8])]) {
     }
 }
 
-fn code(hand_in: &HandIn) -> &'static str {
-    hand_in.outcome.as_ref().map_or_else(Refusal::code, |_| "ok")
+fn code(intake: &Intake) -> &'static str {
+    intake.outcome.as_ref().map_or_else(Refusal::code, |_| "ok")
 }
 
-fn notes(hand_in: &HandIn) -> Vec<&'static str> {
-    hand_in.notes.iter().map(Note::code).collect()
+fn notes(intake: &Intake) -> Vec<&'static str> {
+    intake.notes.iter().map(Note::code).collect()
 }
 
-fn source(hand_in: &HandIn) -> &str {
-    &hand_in.outcome.as_ref().expect("it is taken").source
+fn source(intake: &Intake) -> &str {
+    &intake.outcome.as_ref().expect("it is taken").source
 }
 
 #[test]
@@ -126,15 +126,15 @@ fn what_cannot_be_graded_has_a_code() {
         ("outside-path", "a.zip", zip(&[("C:\\render_pt.rs", SOURCE.as_bytes())])),
     ];
     for (expected, name, bytes) in cases {
-        let hand_in = take_folder(&[(name, &bytes)]);
-        assert_eq!(code(&hand_in), expected, "{name}: {:?}", hand_in.outcome);
+        let intake = take_folder(&[(name, &bytes)]);
+        assert_eq!(code(&intake), expected, "{name}: {:?}", intake.outcome);
     }
 }
 
 #[test]
 fn where_the_source_is_missing_is_said_what_there_is() {
-    let hand_in = take_folder(&[("src/main.rs", b"fn main() {}"), ("picture.png", b""), ("._x", b"")]);
-    let refusal = hand_in.outcome.expect_err("there is no source").to_string();
+    let intake = take_folder(&[("src/main.rs", b"fn main() {}"), ("picture.png", b""), ("._x", b"")]);
+    let refusal = intake.outcome.expect_err("there is no source").to_string();
     assert!(refusal.contains("main.rs") && refusal.contains("picture.png"), "{refusal}");
     assert!(!refusal.contains("._x"), "{refusal}");
 }
@@ -156,8 +156,8 @@ fn archives_that_unpack_to_too_much_are_not_read_to_their_end() {
         ("a.tar.gz", gzip(&tar(&[("zeros", &zeros), ("render_pt.rs", SOURCE.as_bytes())]))),
         ("a.tgz", gzip(&tar(&[("render_pt.rs", SOURCE.as_bytes()), ("zeros", &zeros)]))),
     ] {
-        let hand_in = take_folder(&[(name, &bytes)]);
-        assert_eq!(code(&hand_in), "bomb", "{name}: {:?}", hand_in.outcome);
+        let intake = take_folder(&[(name, &bytes)]);
+        assert_eq!(code(&intake), "bomb", "{name}: {:?}", intake.outcome);
     }
     // Of a zip nothing is unpacked that is not wanted.
     let bytes = zip(&[("zeros", &zeros), ("render_pt.rs", SOURCE.as_bytes())]);
@@ -181,8 +181,8 @@ fn encodings_and_line_ends_cost_nobody_a_point() {
         (b"// a\rpub struct PathTracer;\r".to_vec(), "// a\npub struct PathTracer;\n", "line-ends"),
         (b"// sch\xf6n \x80\n".to_vec(), "// schön €\n", "windows-1252"),
     ] {
-        let hand_in = take_folder(&[("render_pt.rs", &bytes)]);
-        assert_eq!((source(&hand_in), notes(&hand_in)), (expected, vec![note]));
+        let intake = take_folder(&[("render_pt.rs", &bytes)]);
+        assert_eq!((source(&intake), notes(&intake)), (expected, vec![note]));
     }
 }
 
@@ -213,32 +213,32 @@ fn of_several_sources_only_different_ones_are_a_question() {
 
 #[test]
 fn the_untouched_starting_file_is_noted() {
-    let hand_in = take_folder(&[("render_pt.rs", STARTER.replace('\n', "\r\n").as_bytes())]);
-    assert_eq!((code(&hand_in), notes(&hand_in)), ("ok", vec!["line-ends", "untouched"]));
+    let intake = take_folder(&[("render_pt.rs", STARTER.replace('\n', "\r\n").as_bytes())]);
+    assert_eq!((code(&intake), notes(&intake)), ("ok", vec!["line-ends", "untouched"]));
 }
 
 #[test]
 fn a_renamed_source_is_taken_if_it_is_the_only_one() {
     for name in ["render_pt(1).rs", "render_pt.rs.txt", "Übung 5.rs"] {
-        let hand_in = take_folder(&[(name, SOURCE.as_bytes()), ("helper.rs", b"fn f() {}")]);
-        assert_eq!((source(&hand_in), notes(&hand_in)), (SOURCE, vec!["other-name"]), "{name}");
+        let intake = take_folder(&[(name, SOURCE.as_bytes()), ("helper.rs", b"fn f() {}")]);
+        assert_eq!((source(&intake), notes(&intake)), (SOURCE, vec!["other-name"]), "{name}");
     }
 }
 
 #[test]
 fn the_explanation_is_picked_up_and_the_projects_own_texts_are_not() {
     let pdf: &[u8] = b"%PDF-1.7 ...";
-    let hand_in = take_folder(&[
+    let intake = take_folder(&[
         ("render_pt.rs", SOURCE.as_bytes()),
         ("Erklärung.txt", b"weil die Kan\xe4le"),
         ("5.2a.pdf", pdf),
         ("README.md", b"arty"),
     ]);
-    let names: Vec<&str> = hand_in.explanations.iter().map(|explanation| explanation.name.as_str()).collect();
+    let names: Vec<&str> = intake.explanations.iter().map(|explanation| explanation.name.as_str()).collect();
     assert_eq!(names, ["5.2a.pdf", "Erklärung.txt"]);
-    assert_eq!(hand_in.explanations[0].hash, blake3::hash(pdf).to_hex().to_string());
-    assert_eq!(hand_in.explanations[0].text, None);
-    assert_eq!(hand_in.explanations[1].text.as_deref(), Some("weil die Kanäle"));
+    assert_eq!(intake.explanations[0].hash, blake3::hash(pdf).to_hex().to_string());
+    assert_eq!(intake.explanations[0].text, None);
+    assert_eq!(intake.explanations[1].text.as_deref(), Some("weil die Kanäle"));
     let only_readme = take_folder(&[("render_pt.rs", SOURCE.as_bytes()), ("README.md", b"because")]);
     assert_eq!(only_readme.explanations.len(), 1);
 }
@@ -247,8 +247,8 @@ fn the_explanation_is_picked_up_and_the_projects_own_texts_are_not() {
 fn checksums_are_of_the_archive_and_of_the_source_as_they_were_sent() {
     let sent = SOURCE.replace('\n', "\r\n");
     let archive = zip(&[("render_pt.rs", sent.as_bytes())]);
-    let hand_in = take_folder(&[("a.zip", &archive)]);
-    assert_eq!(hand_in.checksums, [md5_of(&archive), md5_of(sent.as_bytes())]);
+    let intake = take_folder(&[("a.zip", &archive)]);
+    assert_eq!(intake.checksums, [md5_of(&archive), md5_of(sent.as_bytes())]);
     assert_eq!(md5_of(b"hello world"), "5eb63bbbe01eeed093cb22bb8f5acdc3");
 }
 
@@ -256,12 +256,12 @@ fn checksums_are_of_the_archive_and_of_the_source_as_they_were_sent() {
 #[cfg(unix)]
 fn links_are_not_followed() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    write_all(folder.path(), &[("elsewhere/real.txt", SOURCE.as_bytes()), ("hand-in/notes.txt", b"")]);
-    let hand_in = folder.path().join("hand-in");
-    std::os::unix::fs::symlink("../elsewhere/real.txt", hand_in.join("render_pt.rs"))
+    write_all(folder.path(), &[("elsewhere/real.txt", SOURCE.as_bytes()), ("submission/notes.txt", b"")]);
+    let submission = folder.path().join("submission");
+    std::os::unix::fs::symlink("../elsewhere/real.txt", submission.join("render_pt.rs"))
         .expect("it can be made");
-    std::os::unix::fs::symlink("..", hand_in.join("loop")).expect("it can be made");
-    assert_eq!(code(&take(&[hand_in], STARTER).expect("it is there")), "link");
+    std::os::unix::fs::symlink("..", submission.join("loop")).expect("it can be made");
+    assert_eq!(code(&take(&[submission], STARTER).expect("it is there")), "link");
 }
 
 fn git(folder: &Path, arguments: &[&str]) {

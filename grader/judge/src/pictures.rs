@@ -1,4 +1,4 @@
-//! Rendering pictures with a hand-in.
+//! Rendering pictures with a submission.
 
 use arty::image::exr::ExrFile;
 use arty::integrator::{Settings, Technique};
@@ -8,7 +8,7 @@ use host::protocol::RenderJob;
 use rayon::prelude::*;
 
 use crate::image_error::hdr_flip;
-use harness::build::HandInProgram;
+use harness::build::SubmissionProgram;
 use harness::host_process::HostProcess;
 use harness::job::apart;
 use harness::workspace::Workspace;
@@ -18,10 +18,10 @@ use verdict::pictures::{Picture, THUMBNAIL_SCENE, half_bits};
 use verdict::report::Report;
 
 /// The most scenes of a page: a scene takes 0.8 of 3 megabytes.
-pub const MOST: usize = 3;
+pub const MAX_PICTURES: usize = 3;
 
 /// What is shown where nothing is wrong. The first one is always there, so that a class can be looked at as one wall.
-const TELLING: [&str; MOST] = [THUMBNAIL_SCENE, "veach_mis", "cornell_box_glossy"];
+const TELLING: [&str; MAX_PICTURES] = [THUMBNAIL_SCENE, "veach_mis", "cornell_box_glossy"];
 
 /// Independent renderings, and samples of each pixel in each.
 const BATCHES: u64 = 8;
@@ -34,13 +34,13 @@ const HALF_ROUNDING: f64 = 1.0 / 2048.0;
 const RADIUS: usize = 2;
 
 /// Pictures of one scene that always is the same, of those whose means are wrong, and of a few that tell much. What
-/// cannot be shown is left out, as are all beyond `most`: no picture decides anything. A hand-in that ran out of time is not rendered again.
+/// cannot be shown is left out, as are all beyond `most`: no picture decides anything. A submission that ran out of time is not rendered again.
 ///
 /// # Errors
-/// What is not the hand-in's doing.
+/// What is not the submission's doing.
 pub fn pictures(
     workspace: &Workspace,
-    hand_in: &HandInProgram,
+    submission: &SubmissionProgram,
     report: &Report,
     threads: usize,
     seed: u64,
@@ -60,7 +60,7 @@ pub fn pictures(
         }
         if !seen.contains(&scene) {
             seen.push(scene);
-            list.extend(picture(workspace, hand_in, scene, threads, seed)?);
+            list.extend(picture(workspace, submission, scene, threads, seed)?);
         }
     }
     Ok(list)
@@ -68,7 +68,7 @@ pub fn pictures(
 
 fn picture(
     workspace: &Workspace,
-    hand_in: &HandInProgram,
+    submission: &SubmissionProgram,
     scene: &str,
     threads: usize,
     seed: u64,
@@ -78,7 +78,7 @@ fn picture(
     else {
         return Ok(None);
     };
-    let mut process = HostProcess::start(hand_in, threads)?;
+    let mut process = HostProcess::start(submission, threads)?;
     let Ok(index) = apart(process.load(&description))? else { return Ok(None) };
     let mut picture = Picture {
         scene: scene.to_owned(),
@@ -103,7 +103,7 @@ fn picture(
         all.push((technique, rendered.batches));
     }
     drop(process);
-    // The hand-in is done; what is left is work of the grader, on one core for each technique.
+    // The submission is done; what is left is work of the grader, on one core for each technique.
     let compared = all.par_iter().map(|(technique, batches)| {
         let (means, z) = mean_and_z(batches, &reference, width, height);
         let flip = hdr_flip(&means, &reference, width, height).map(|flip| flip.map).unwrap_or_default();

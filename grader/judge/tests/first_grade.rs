@@ -158,7 +158,7 @@ fn what_is_not_a_number_is_named_with_its_pixel() {
 }
 
 #[test]
-fn what_a_hand_in_prints_disturbs_nobody() {
+fn what_a_submission_prints_disturbs_nobody() {
     let source = with_statement(
         r#"println!("points: 80"); eprintln!("debug"); let mut line = String::new(); let _ = std::io::stdin().read_line(&mut line);"#,
     );

@@ -1,14 +1,14 @@
 //! The check of stability and the replay of single paths, on files that are right, wrong, and right within the range that
 //! counts.
 //!
-//! Scaled scenes give a correct hand-in the same numbers to the last bit, so that nothing there is left to luck; each of the
+//! Scaled scenes give a correct submission the same numbers to the last bit, so that nothing there is left to luck; each of the
 //! means in extreme scenes raises a false alarm less than once in ten million runs, and seeds are fixed.
 
 use std::path::PathBuf;
 
 use arty::integrator::Technique;
 use arty::sampler::batch_seed;
-use harness::build::{Framework, HandInProgram, compile};
+use harness::build::{Framework, SubmissionProgram, compile};
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
 use judge::grade::{Options, grade};
@@ -142,7 +142,7 @@ fn naive_weights_pass_with_a_remark_on_where_they_break() {
     }
 }
 
-fn program(changes: &[(&str, &str)]) -> HandInProgram {
+fn program(changes: &[(&str, &str)]) -> SubmissionProgram {
     let framework = Framework::build(&workspace()).expect("the framework builds");
     compile(&framework, &source(changes), &Limits::default()).expect("rustc runs").expect("it compiles")
 }

@@ -1,4 +1,4 @@
-//! Makes a class to measure with: hand-ins that are right, wrong, hostile and odd, in a folder for each.
+//! Makes a class to measure with: submissions that are right, wrong, hostile and odd, in a folder for each.
 //!
 //! `cargo run --release -p grader --example make_class -- --out target/class --count 100`, then
 //! `time cargo grader class target/class --out target/class-report`.
@@ -12,13 +12,13 @@ use lab::mutants::{Kind, variants};
 use verdict::error::{Error, Result};
 use verdict::rubric::Rubric;
 
-/// Make a class of hand-ins from the committed variants of the solution.
+/// Make a class of submissions from the committed variants of the solution.
 #[derive(Parser)]
 struct Arguments {
     /// The folder of the class; it is made
     #[arg(long)]
     out: PathBuf,
-    /// How many hand-ins
+    /// How many submissions
     #[arg(long, default_value_t = 100)]
     count: usize,
     /// The assignment that the variants are of
@@ -61,11 +61,11 @@ fn make(arguments: &Arguments) -> Result<()> {
         let file = folder.join("render_pt.rs");
         std::fs::write(&file, format!("// {index}\n{source}")).map_err(|error| Error::file(&file, error))?;
     }
-    println!("{}: {} hand-ins", arguments.out.display(), arguments.count);
+    println!("{}: {} submissions", arguments.out.display(), arguments.count);
     Ok(())
 }
 
-/// Hand-ins that hang, crash, eat memory or end the process.
+/// Submissions that hang, crash, eat memory or end the process.
 fn odd() -> Vec<String> {
     ["loop {}", "panic!()", "std::process::exit(0)", "std::process::abort()", "fn f(n: u64) -> u64 { if n == 0 { 0 } else { f(n + 1) + std::hint::black_box(n) } } Rgb::gray(f(1) as f32)"]
         .iter()

@@ -91,7 +91,7 @@ fn observations_that_fit_nothing_are_unknown() {
 }
 
 #[test]
-fn nothing_is_said_of_a_hand_in_whose_checks_all_pass() {
+fn nothing_is_said_of_a_submission_whose_checks_all_pass() {
     let right = Seen { state: State::Pass, numbers: Default::default() };
     let vector = Vector(rubric().checks().map(|(_, spec)| (spec.id(), right.clone())).collect());
     assert!(catalogue().names(&vector).is_empty());

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use jiff::tz::TimeZone;
 
-use super::least_sandbox::LeastSandbox;
+use super::min_sandbox::MinSandbox;
 use super::policy::policy;
 use classroom::class::gradebook::{Row, State, save_class, save_gradebook};
 use classroom::class::page::ClassPage;
@@ -16,15 +16,15 @@ use harness::workspace::Workspace;
 use judge::grade::Options;
 use verdict::error::{Error, Result};
 
-/// Grade a class: a folder of hand-ins as Moodle and ILIAS pack them, or one folder, archive or file for each student.
+/// Grade a class: a folder of submissions as Moodle and ILIAS pack them, or one folder, archive or file for each student.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// The folder of hand-ins
+    /// The folder of submissions
     folder: PathBuf,
     /// Who should have handed in (CSV) [default: the file of --moodle or --ilias]
     #[arg(long, value_name = "FILE.csv")]
     roster: Option<PathBuf>,
-    /// When hand-ins came (CSV: student, received_at, md5, md5_received_at, path); file times are never used
+    /// When submissions came (CSV: student, received_at, md5, md5_received_at, path); file times are never used
     #[arg(long, value_name = "FILE.csv")]
     manifest: Option<PathBuf>,
     /// When all that the manifest does not name came
@@ -44,7 +44,7 @@ pub(super) struct Arguments {
     /// Folder of the results
     #[arg(long, value_name = "DIR", default_value = "class-report")]
     out: PathBuf,
-    /// How many hand-ins at once, each with one thread [default: one for each core]
+    /// How many submissions at once, each with one thread [default: one for each core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: Option<u16>,
     /// Go on where an earlier run ended: what has not changed is not graded again
@@ -53,7 +53,7 @@ pub(super) struct Arguments {
     /// Grade everything again, and say what has changed
     #[arg(long)]
     regrade: bool,
-    /// Leave out the pages of hand-ins and class, and the pictures on them
+    /// Leave out the pages of submissions and class, and the pictures on them
     #[arg(long)]
     no_report: bool,
     /// Seed of all random numbers: the same seed gives the same verdicts
@@ -64,7 +64,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "CHECK|SCENE|TASK", conflicts_with_all = ["moodle", "ilias"])]
     only: Vec<String>,
     #[command(flatten)]
-    sandbox: LeastSandbox,
+    sandbox: MinSandbox,
 }
 
 pub(super) fn run_class(arguments: &Arguments) -> Result<ExitCode> {
@@ -92,7 +92,7 @@ pub(super) fn run_class(arguments: &Arguments) -> Result<ExitCode> {
             member.receipts.push(Receipt { received_at: Some(time), ..Receipt::default() });
         }
     }
-    let folders = out.join("hand-ins");
+    let folders = out.join("submissions");
     std::fs::create_dir_all(&folders).map_err(|error| Error::file(&folders, error))?;
     let options = RunOptions {
         grade: Options {
@@ -188,7 +188,7 @@ fn print_outcome(
             .is_some_and(|lateness| lateness.standing == classroom::policy::Standing::Unknown)
     });
     if unknown > 0 {
-        eprintln!("of {unknown} hand-ins nobody said when they came: they count in full (see --manifest)");
+        eprintln!("of {unknown} submissions nobody said when they came: they count in full (see --manifest)");
     }
     if !arguments.only.is_empty() {
         eprintln!("note: with --only, sums are of those tasks alone whose checks were all run");

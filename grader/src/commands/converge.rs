@@ -17,7 +17,7 @@ use verdict::convergence::{Role, TELLING_SCENES};
 use verdict::error::{Error, Result};
 use verdict::report::LeftOut;
 
-/// Measure the error of hand-ins against run time, beside the solution and plain BSDF sampling.
+/// Measure the error of submissions against run time, beside the solution and plain BSDF sampling.
 ///
 /// Separate renderings of several lengths, in turns with the other programs, on the processor time that each took.
 /// Errors are relative MSEs against the stored references, whose own noise is subtracted. The line of an unbiased
@@ -125,7 +125,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// What each hand-in is called: by its file or folder, or by all of its path where that is the name of several.
+/// What each submission is called: by its file or folder, or by all of its path where that is the name of several.
 fn names(paths: &[PathBuf]) -> Vec<String> {
     let short = |path: &Path| {
         let name = if path.file_name().is_some_and(|name| name == verdict::submission::FILE_NAME) {
@@ -167,7 +167,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn hand_ins_are_called_by_what_tells_them_apart() {
+    fn submissions_are_called_by_what_tells_them_apart() {
         let paths = ["a/render_pt.rs", "b.rs", "x/c.rs", "y/c.rs"].map(PathBuf::from);
         assert_eq!(names(&paths), ["a", "b", "x/c.rs", "y/c.rs"]);
     }

@@ -58,7 +58,7 @@ pub(super) fn run(_: &Arguments) -> Result<ExitCode> {
     let possible = Machine::here().layers();
     let (compiler, host) = host.unwrap_or((possible, possible));
     say("rustc's sandbox", describe(compiler));
-    say("hand-in's sandbox", describe(host));
+    say("submission's sandbox", describe(host));
     let sandbox = Sandbox::new(compiler, host, Vec::new());
     say("level", sandbox.level);
     if sandbox.level < Level::Strong {

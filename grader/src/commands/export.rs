@@ -19,7 +19,7 @@ pub(super) struct Arguments {
     /// The file to write; standard output without it
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Gradescope's submission_metadata.json, to say how late a hand-in is
+    /// Gradescope's submission_metadata.json, to say how late a submission is
     #[arg(long, value_name = "FILE")]
     metadata: Option<PathBuf>,
 }

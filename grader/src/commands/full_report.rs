@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use harness::build::HandInProgram;
+use harness::build::SubmissionProgram;
 use harness::workspace::Workspace;
 use judge::convergence::brief;
 use judge::grade::{Grader, Options};
-use judge::pictures::{MOST, pictures};
+use judge::pictures::{MAX_PICTURES, pictures};
 use judge::reference::Oracle;
 use present::convergence::print_sentences;
 use present::page::{Readers, pages_beside, pictures_beside, write_pages};
@@ -19,7 +19,7 @@ use verdict::report::Report;
 pub(super) fn complete(
     workspace: &Workspace,
     grader: &Grader,
-    program: Option<&HandInProgram>,
+    program: Option<&SubmissionProgram>,
     report: &mut Report,
     file: &Path,
 ) -> Result<()> {
@@ -32,7 +32,7 @@ pub(super) fn complete(
         println!("\nError against run time, for no points");
         print_sentences(&convergence);
         report.convergence = Some(convergence);
-        shown = pictures(workspace, program, report, *threads, *seed, MOST)?;
+        shown = pictures(workspace, program, report, *threads, *seed, MAX_PICTURES)?;
         report.images = shown.iter().flat_map(Picture::errors).collect();
     }
     report.save(file)?;

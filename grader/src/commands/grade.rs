@@ -6,13 +6,13 @@ use std::process::ExitCode;
 use arty::image::check_writable;
 
 use super::lateness::When;
-use super::least_sandbox::LeastSandbox;
+use super::min_sandbox::MinSandbox;
 use super::{export, full_report, watch};
 use classroom::marks::Marks;
 use harness::assignment::Assignment;
 use harness::build::Framework;
 use harness::workspace::Workspace;
-use intake::{self, HandIn, Refusal};
+use intake::{self, Intake, Refusal};
 use judge::grade::{Grader, Options};
 use present::export::Export;
 use present::page::remove_pages;
@@ -20,7 +20,7 @@ use present::{Progress, print_profile, print_sum, print_summary};
 use verdict::error::{Error, Result};
 use verdict::submission::IntakeFinding;
 
-/// Grade one hand-in.
+/// Grade one submission.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// A render_pt.rs, or a folder, .zip, .tar.gz or git repository with one in it [default: the student file in the skeleton]
@@ -36,10 +36,10 @@ pub(super) struct Arguments {
     /// Run only these checks: by check, kind, scene, technique or task; may be given several times
     #[arg(long, value_name = "CHECK|SCENE|TASK")]
     only: Vec<String>,
-    /// Threads for the hand-in [default: one for each core]
+    /// Threads for the submission [default: one for each core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: Option<u16>,
-    /// A hand-in without a render_pt.rs gets a report with 0 points, where it is an error otherwise: for servers
+    /// A submission without a render_pt.rs gets a report with 0 points, where it is an error otherwise: for servers
     #[arg(long)]
     missing_is_zero: bool,
     /// Exit with status 1 if fewer points than this are earned, of all automatic points
@@ -62,7 +62,7 @@ pub(super) struct Arguments {
     #[arg(long, conflicts_with = "fail_under")]
     watch: bool,
     #[command(flatten)]
-    sandbox: LeastSandbox,
+    sandbox: MinSandbox,
     #[command(flatten)]
     when: When,
 }
@@ -72,7 +72,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let path = arguments.submission.clone().unwrap_or_else(|| workspace.student_file());
     let path = relative(path);
     let received = arguments.when.read(&workspace, &arguments.assignment.name)?;
-    let HandIn { outcome, notes, checksums, explanations } =
+    let Intake { outcome, notes, checksums, explanations } =
         take(&workspace, &path, arguments.missing_is_zero)?;
     let threads = arguments.jobs.map_or_else(rayon::current_num_threads, usize::from);
     let options = Options {
@@ -92,7 +92,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let mut progress = if arguments.quiet { Progress::hidden() } else { Progress::new() };
     if Framework::is_first(&workspace) {
         progress
-            .say("building the framework that hand-ins are linked against: once, and it takes a minute …");
+            .say("building the framework that submissions are linked against: once, and it takes a minute …");
     }
     if arguments.watch {
         watch::watch(&workspace, &path, &options, &file)?;
@@ -140,15 +140,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
 }
 
 /// Takes in what was named. That nothing at all is there, or that it cannot be read, is the fault of whoever named it;
-/// any other refusal is that of the hand-in, which has no points then. So are these with `missing_is_zero`.
-fn take(workspace: &Workspace, path: &Path, missing_is_zero: bool) -> Result<HandIn> {
+/// any other refusal is that of the submission, which has no points then. So are these with `missing_is_zero`.
+fn take(workspace: &Workspace, path: &Path, missing_is_zero: bool) -> Result<Intake> {
     let starter = std::fs::read_to_string(workspace.student_file()).unwrap_or_default();
-    let hand_in = intake::take(&[path.to_owned()], &starter)?;
-    match &hand_in.outcome {
+    let intake = intake::take(&[path.to_owned()], &starter)?;
+    match &intake.outcome {
         Err(refusal @ (Refusal::MissingFile(_) | Refusal::Unreadable(..))) if !missing_is_zero => {
             Err(Error::file(path, refusal))
         }
-        _ => Ok(hand_in),
+        _ => Ok(intake),
     }
 }
 

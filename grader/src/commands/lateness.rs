@@ -1,4 +1,4 @@
-//! How late one hand-in is, in words.
+//! How late one submission is, in words.
 
 use std::path::PathBuf;
 
@@ -8,7 +8,7 @@ use harness::workspace::Workspace;
 use verdict::error::{Error, Result};
 use verdict::rubric::Rubric;
 
-/// The options that say when a hand-in came.
+/// The options that say when a submission came.
 #[derive(clap::Args)]
 pub(super) struct When {
     /// When it came, for what being late costs; file times are never used
@@ -22,7 +22,7 @@ pub(super) struct When {
     student: String,
 }
 
-/// When one hand-in came, and the rules for it.
+/// When one submission came, and the rules for it.
 pub(super) struct Received {
     policy: Policy,
     receipt: Receipt,
@@ -36,7 +36,7 @@ impl When {
         let rubric = Rubric::load(&workspace.assignment(assignment).join("rubric.yml"))?;
         let policy = policy(workspace, assignment, &rubric, self.course.as_deref())?;
         let policy =
-            policy.ok_or_else(|| Error::Input("the rubric has no `policy` for late hand-ins".into()))?;
+            policy.ok_or_else(|| Error::Input("the rubric has no `policy` for late submissions".into()))?;
         let time = parse_received(text, policy.zone())
             .map_err(|error| Error::Input(format!("--received-at: {error}")))?;
         let receipt = Receipt { received_at: Some(time), ..Receipt::default() };
@@ -56,7 +56,7 @@ impl Received {
     }
 }
 
-/// How a hand-in that came then stands to its deadline; `None` if there is none.
+/// How a submission that came then stands to its deadline; `None` if there is none.
 pub(super) fn standing(
     policy: &Policy,
     names: &[&str],

@@ -15,7 +15,7 @@ use verdict::report::Report;
 /// Record the points that a person gives for a task that is not graded automatically.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// The hand-in, as it was graded: a file, folder, archive or git repository
+    /// The submission, as it was graded: a file, folder, archive or git repository
     submission: PathBuf,
     /// The task, as in 5.2a
     task: String,
@@ -37,11 +37,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     if let Some(why) = why_not(&rubric, &arguments.task, arguments.points) {
         return Err(Error::Input(why));
     }
-    let hand_in = intake::take(std::slice::from_ref(&arguments.submission), "")?;
-    for explanation in &hand_in.explanations {
+    let intake = intake::take(std::slice::from_ref(&arguments.submission), "")?;
+    for explanation in &intake.explanations {
         eprintln!("{}: {} bytes", verdict::text::harmless(&explanation.name), explanation.bytes);
     }
-    let submission = hand_in.outcome.map_err(|refusal| Error::file(&arguments.submission, refusal))?;
+    let submission = intake.outcome.map_err(|refusal| Error::file(&arguments.submission, refusal))?;
     std::fs::create_dir_all(&arguments.out).map_err(|error| Error::file(&arguments.out, error))?;
     let mut marks = Marks::open(&arguments.out)?;
     marks.set(Mark {

@@ -8,8 +8,8 @@ mod export;
 mod full_report;
 mod grade;
 mod lateness;
-mod least_sandbox;
 mod mark;
+mod min_sandbox;
 mod pack;
 mod plan;
 mod policy;
@@ -20,7 +20,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-/// Builds, runs and judges hand-ins of the path tracing exercise.
+/// Builds, runs and judges submissions of the path tracing exercise.
 #[derive(Parser)]
 #[command(name = "grader", version, propagate_version = true)]
 struct Arguments {
@@ -30,15 +30,15 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Grade one hand-in: build it, run its checks, print points, write report.json.
+    /// Grade one submission: build it, run its checks, print points, write report.json.
     Grade(grade::Arguments),
     /// Tell what this machine gives for grading: compiler, linker, sandbox, and how to get a better one.
     Doctor(doctor::Arguments),
-    /// Grade a class: a folder of hand-ins, with deadlines, a gradebook and the files of course systems (for staff).
+    /// Grade a class: a folder of submissions, with deadlines, a gradebook and the files of course systems (for staff).
     Class(class::Arguments),
-    /// Pack your hand-in: checks that it compiles, packs it, prints its MD5 checksum.
+    /// Pack your submission: checks that it compiles, packs it, prints its MD5 checksum.
     Pack(pack::Arguments),
-    /// Measure the error of hand-ins against run time, beside the solution: CSV, JSON, SVG.
+    /// Measure the error of submissions against run time, beside the solution: CSV, JSON, SVG.
     Converge(converge::Arguments),
     /// Write a report in the format of another system: Markdown, JUnit, GitHub, Gradescope, Classroom 50, Autolab.
     Export(export::Arguments),
@@ -48,7 +48,7 @@ enum Command {
     Mark(mark::Arguments),
     /// Say which checks mean something in a scene, and why others are left out.
     Plan(plan::Arguments),
-    /// Follow one path again and show every call of the hand-in.
+    /// Follow one path again and show every call of the submission.
     Replay(replay::Arguments),
 }
 

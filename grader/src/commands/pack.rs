@@ -19,7 +19,7 @@ use intake::md5_of;
 use verdict::error::{Error, Result};
 use verdict::submission::FILE_NAME;
 
-/// Pack your hand-in: checks that it compiles, packs it with your explanation, prints the MD5 checksum.
+/// Pack your submission: checks that it compiles, packs it with your explanation, prints the MD5 checksum.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// The file to hand in [default: the student file in the skeleton]
@@ -28,7 +28,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "FILE")]
     explanation: Vec<PathBuf>,
     /// The archive to write
-    #[arg(long, value_name = "FILE.zip", default_value = "hand-in.zip")]
+    #[arg(long, value_name = "FILE.zip", default_value = "submission.zip")]
     out: PathBuf,
     /// Pack it even if it does not compile: it will earn points only where a person gives them
     #[arg(long)]

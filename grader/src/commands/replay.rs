@@ -18,7 +18,7 @@ use present::replay::print;
 use verdict::error::{Error, Result};
 use verdict::replay::{Path, Vertex};
 
-/// Follow one path of a hand-in again and show every call that it made. Reports give the command for their findings.
+/// Follow one path of a submission again and show every call that it made. Reports give the command for their findings.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// A render_pt.rs, or a folder with one in it
@@ -65,7 +65,7 @@ pub(super) struct Arguments {
 struct Output<'a> {
     schema: &'a str,
     command: &'a str,
-    hand_in: &'a Path,
+    submission: &'a Path,
     #[serde(skip_serializing_if = "Option::is_none")]
     solution: Option<&'a Path>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -96,8 +96,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     };
     let submission = intake::read(&arguments.submission)?;
     let program = compile(&Framework::build(&workspace)?, &submission.source, &Limits::default())?
-        .map_err(|failure| Error::Input(format!("the hand-in does not compile:\n{}", failure.messages)))?;
-    let hand_in = follow(&program, &place)?.map_err(|fault| Error::Input(format!("the hand-in: {fault}")))?;
+        .map_err(|failure| Error::Input(format!("the submission does not compile:\n{}", failure.messages)))?;
+    let submission =
+        follow(&program, &place)?.map_err(|fault| Error::Input(format!("the submission: {fault}")))?;
 
     let (own, left_out) = if arguments.student {
         (None, Some("the solution's path is left out, as asked for"))
@@ -116,7 +117,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         let output = Output {
             schema: "arty-replay/1",
             command: &command,
-            hand_in: &hand_in,
+            submission: &submission,
             solution: own.as_ref(),
             vertices: weighted.as_deref(),
             left_out,
@@ -124,18 +125,18 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         arty::image::write_aside(file, |writer| serde_json::to_writer_pretty(writer, &output))?;
     }
     // Nobody may be reading any more (`… | head`).
-    let _ = show(&hand_in, own.as_ref(), weighted.as_deref(), left_out);
+    let _ = show(&submission, own.as_ref(), weighted.as_deref(), left_out);
     Ok(ExitCode::SUCCESS)
 }
 
 fn show(
-    hand_in: &Path,
+    submission: &Path,
     own: Option<&Path>,
     vertices: Option<&[Vertex]>,
     left_out: Option<&str>,
 ) -> std::io::Result<()> {
     let mut out = std::io::stdout().lock();
-    print(&mut out, "The hand-in", hand_in, None)?;
+    print(&mut out, "The submission", submission, None)?;
     if let Some(path) = own {
         writeln!(out)?;
         print(&mut out, "The solution", path, vertices)?;

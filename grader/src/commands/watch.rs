@@ -22,11 +22,11 @@ const QUIET: Duration = Duration::from_millis(150);
 /// Lines of a compiler's messages that are shown: the first error, usually.
 const MESSAGE_LINES: usize = 24;
 
-/// Grades a hand-in now and whenever it changes, until someone interrupts. What is wrong with the hand-in, or missing
+/// Grades a submission now and whenever it changes, until someone interrupts. What is wrong with the submission, or missing
 /// for a moment, is shown; it never ends this.
 ///
 /// # Errors
-/// If the folder of the hand-in cannot be watched.
+/// If the folder of the submission cannot be watched.
 pub(super) fn watch(workspace: &Workspace, path: &Path, options: &Options, file: &Path) -> Result<()> {
     let (sender, changes) = channel();
     let trouble =

@@ -1,7 +1,7 @@
 //! Error against run time, as data: what `judge` measures and `present` shows.
 //!
 //! Every point of a curve is many **separate** renderings of one length, each with a seed of its own: the points of
-//! one progressive rendering would all share its luck. Time is processor time of the hand-in's process, over all of
+//! one progressive rendering would all share its luck. Time is processor time of the submission's process, over all of
 //! its threads; programs take turns in short jobs, so that whatever else the machine does meets all of them; the first
 //! jobs, from which the lengths are planned, are left out. Errors are taken against the stored reference, whose own
 //! noise is subtracted; intervals are bootstrapped over renderings (Celarek et al.: "Quantifying the Error of Light
@@ -48,7 +48,7 @@ pub struct LeftOut {
 pub struct Panel {
     /// The scene.
     pub scene: String,
-    /// The technique of hand-ins and solution.
+    /// The technique of submissions and solution.
     #[schemars(with = "crate::schema::TechniqueName")]
     pub technique: Technique,
     /// The largest number of bounces.
@@ -57,7 +57,7 @@ pub struct Panel {
     pub target: f64,
     /// The part of the relative MSE that is the reference's own noise; it is subtracted.
     pub reference_noise: f64,
-    /// The curves: hand-ins first, then the solution, then plain BSDF sampling.
+    /// The curves: submissions first, then the solution, then plain BSDF sampling.
     pub curves: Vec<Curve>,
 }
 
@@ -65,7 +65,7 @@ pub struct Panel {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Role {
-    /// Of a hand-in.
+    /// Of a submission.
     Submission,
     /// Of the solution, with the same technique.
     Solution,
@@ -134,7 +134,7 @@ pub struct Estimate {
 pub struct Crops {
     /// The scene.
     pub scene: String,
-    /// The technique of hand-ins and solution.
+    /// The technique of submissions and solution.
     pub technique: Technique,
     /// Processor time of each rendering, in seconds, as near as whole samples come to it.
     pub seconds: f64,

@@ -1,9 +1,9 @@
-//! What can go wrong that is not the hand-in's doing.
+//! What can go wrong that is not the submission's doing.
 
 use std::path::Path;
 use std::process::ExitCode;
 
-/// A reason to stop, with whose matter it is. Faults of a hand-in are no errors: they are findings in its report.
+/// A reason to stop, with whose matter it is. Faults of a submission are no errors: they are findings in its report.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The command line, a scene, a rubric, a reference: something that the one who runs the grader can mend.
@@ -17,7 +17,7 @@ pub enum Error {
     Output(String),
 }
 
-/// A result whose failure is not the hand-in's doing.
+/// A result whose failure is not the submission's doing.
 pub type Result<T> = std::result::Result<T, Error>;
 
 impl Error {

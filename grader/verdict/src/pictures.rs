@@ -1,4 +1,4 @@
-//! Pictures for the report page: what the hand-in renders with each technique, beside what the scene looks like.
+//! Pictures for the report page: what the submission renders with each technique, beside what the scene looks like.
 //!
 //! They are kept as the page shows them: radiance in half floats, all else in bytes.
 
@@ -13,7 +13,7 @@ use crate::smape::smape;
 /// The scene that every report has a picture of, so that a class can be looked at as one wall.
 pub const THUMBNAIL_SCENE: &str = "cornell_box";
 
-/// A hand-in's pictures of a scene. All lists are row by row from the top.
+/// A submission's pictures of a scene. All lists are row by row from the top.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Picture {
     /// The scene.
@@ -30,11 +30,11 @@ pub struct Picture {
     pub samples: u64,
     /// What is right: radiance as the bits of half floats, three for each pixel.
     pub reference: Vec<u16>,
-    /// What the hand-in renders, technique by technique.
+    /// What the submission renders, technique by technique.
     pub rendered: Vec<Rendered>,
 }
 
-/// What a hand-in renders with one technique.
+/// What a submission renders with one technique.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rendered {
     /// The technique.
@@ -60,7 +60,7 @@ pub struct ImageError {
     pub technique: Technique,
     /// The largest number of bounces.
     pub max_bounces: u32,
-    /// Samples of each pixel of the hand-in.
+    /// Samples of each pixel of the submission.
     pub samples: u64,
     /// Mean squared error, in radiance squared.
     pub mse: f64,

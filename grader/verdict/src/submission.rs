@@ -1,4 +1,4 @@
-//! What of a hand-in is graded.
+//! What of a submission is graded.
 
 use std::path::{Path, PathBuf};
 
@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 /// The name of the one file that counts.
 pub const FILE_NAME: &str = "render_pt.rs";
 
-/// A hand-in's source.
+/// A submission's source.
 #[derive(Clone, Debug)]
 pub struct Submission {
     /// The path as it was given.
@@ -35,12 +35,12 @@ impl Submission {
     }
 }
 
-/// Why a hand-in does not compile.
+/// Why a submission does not compile.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BuildFailure {
-    /// rustc's messages as it shows them on a terminal without colours; lines are those of the hand-in.
+    /// rustc's messages as it shows them on a terminal without colours; lines are those of the submission.
     pub messages: String,
-    /// The line of the first error in the hand-in, where rustc names one.
+    /// The line of the first error in the submission, where rustc names one.
     pub line: Option<u32>,
 }
 
@@ -57,7 +57,7 @@ pub enum ExplanationKind {
 /// A written explanation.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Explanation {
-    /// Its name in the hand-in.
+    /// Its name in the submission.
     pub name: String,
     /// Text or not.
     pub kind: ExplanationKind,
@@ -78,10 +78,10 @@ pub struct IntakeFinding {
     pub message: String,
 }
 
-/// Something that a hand-in names.
+/// Something that a submission names.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct SourceFinding {
-    /// The line of the hand-in, counted from 1.
+    /// The line of the submission, counted from 1.
     pub line: usize,
     /// What stands there, as in `std::fs`.
     pub what: String,

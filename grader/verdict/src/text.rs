@@ -1,6 +1,6 @@
 //! Words of others, before they enter a report.
 //!
-//! Panic messages and errors of the compiler say what the hand-in wants them to say. They are cleaned once, here,
+//! Panic messages and errors of the compiler say what the submission wants them to say. They are cleaned once, here,
 //! when they are taken over; each format of the report then escapes what is special in it.
 
 use std::path::Path;

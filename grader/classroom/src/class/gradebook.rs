@@ -32,10 +32,10 @@ pub enum State {
     Harness,
 }
 
-/// What is known of one student or hand-in.
+/// What is known of one student or submission.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
-    /// The student, and the name of the folder below `hand-ins/`.
+    /// The student, and the name of the folder below `submissions/`.
     pub key: String,
     /// Family name.
     pub last_name: String,
@@ -49,7 +49,7 @@ pub struct Row {
     pub numbers: Vec<String>,
     /// False if it is nobody's on the roster.
     pub on_roster: bool,
-    /// The name of the hand-in's folder or file.
+    /// The name of the submission's folder or file.
     pub sent: String,
     /// How it came to its points.
     pub state: State,
@@ -111,12 +111,12 @@ impl Row {
         Self { reason: Some(reason), raw: Some(0.0), points: Some(0.0), ..Self::new(member, State::Missing) }
     }
 
-    /// Of a hand-in with which the grader failed.
+    /// Of a submission with which the grader failed.
     pub(super) fn harness(member: &Member, reason: IntakeFinding) -> Self {
         Self { reason: Some(reason), ..Self::new(member, State::Harness) }
     }
 
-    /// Of a hand-in that was taken in.
+    /// Of a submission that was taken in.
     pub(super) fn of_record(
         member: &Member,
         record: &Record,

@@ -1,4 +1,4 @@
-//! Which hand-ins lie in a folder: as Moodle and ILIAS pack them, or one file, folder or archive for each student.
+//! Which submissions lie in a folder: as Moodle and ILIAS pack them, or one file, folder or archive for each student.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -27,11 +27,11 @@ pub struct Sent {
     pub paths: Vec<PathBuf>,
 }
 
-/// All hand-ins in a folder, in the order of their names.
+/// All submissions in a folder, in the order of their names.
 ///
 /// # Errors
 /// If it is no folder, cannot be read, or holds none.
-pub fn hand_ins(folder: &Path) -> Result<Vec<Sent>> {
+pub fn submissions(folder: &Path) -> Result<Vec<Sent>> {
     if !folder.is_dir() {
         return Err(Error::file(folder, "this is no folder; unpack a course system's archive first"));
     }
@@ -47,12 +47,12 @@ pub fn hand_ins(folder: &Path) -> Result<Vec<Sent>> {
         sent.paths.push(path);
     }
     if found.is_empty() {
-        return Err(Error::file(&folder, "there are no hand-ins in this folder"));
+        return Err(Error::file(&folder, "there are no submissions in this folder"));
     }
     Ok(found.into_values().collect())
 }
 
-/// The folder that the hand-ins lie in: course systems pack them in folders of the exercise's and assignment's name.
+/// The folder that the submissions lie in: course systems pack them in folders of the exercise's and assignment's name.
 /// Only what carries a course system's numbers, some folders down, is proof that those above are not a student's.
 fn inner_folder(folder: &Path) -> Result<PathBuf> {
     let mut inner = folder.to_owned();
@@ -71,7 +71,7 @@ fn inner_folder(folder: &Path) -> Result<PathBuf> {
     Ok(folder.to_owned())
 }
 
-/// Folders and files that can be part of a hand-in, in order. Tables and notes of the staff are none.
+/// Folders and files that can be part of a submission, in order. Tables and notes of the staff are none.
 fn entries(folder: &Path) -> Result<Vec<PathBuf>> {
     let list = std::fs::read_dir(folder).map_err(|error| Error::file(folder, error))?;
     let mut paths = Vec::new();
@@ -138,7 +138,7 @@ mod tests {
             std::fs::create_dir_all(path.parent().expect("it has one")).expect("it can be made");
             std::fs::write(path, "").expect("it can be written");
         }
-        let sent = hand_ins(folder.path()).expect("there are some");
+        let sent = submissions(folder.path()).expect("there are some");
         sent.into_iter().map(|sent| (sent.identity.number.unwrap_or(sent.label), sent.paths.len())).collect()
     }
 

@@ -1,4 +1,4 @@
-//! Roster and hand-ins brought together.
+//! Roster and submissions brought together.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -8,20 +8,20 @@ use super::roster::{self, Student};
 use crate::policy::Receipt;
 use verdict::error::{Error, Result};
 
-/// One row of the class: a student, a hand-in, or both.
+/// One row of the class: a student, a submission, or both.
 #[derive(Clone, Debug)]
 pub struct Member {
     /// What names the row: the login if there is one. It is also the name of the folder with the results.
     pub key: String,
-    /// The student of the roster; without one, the hand-in is somebody else's.
+    /// The student of the roster; without one, the submission is somebody else's.
     pub student: Option<Student>,
-    /// The name of the hand-in's folder; empty if there is none.
+    /// The name of the submission's folder; empty if there is none.
     pub label: String,
-    /// The hand-in's files and folders; empty if there is none.
+    /// The submission's files and folders; empty if there is none.
     pub paths: Vec<PathBuf>,
     /// When it came.
     pub receipts: Vec<Receipt>,
-    /// The names that the hand-in's folder gives its student.
+    /// The names that the submission's folder gives its student.
     aliases: Vec<String>,
 }
 
@@ -41,19 +41,19 @@ impl Member {
 pub struct Class {
     /// The rows.
     pub members: Vec<Member>,
-    /// The folder of the hand-ins.
+    /// The folder of the submissions.
     pub folder: PathBuf,
 }
 
 impl Class {
-    /// Looks for hand-ins in a folder, and gives them to the students of the roster. An empty roster says nothing.
+    /// Looks for submissions in a folder, and gives them to the students of the roster. An empty roster says nothing.
     ///
     /// # Errors
     /// If there are none.
     pub fn find(folder: &Path, roster: &[Student]) -> Result<Self> {
         let mut sent_by: Vec<Vec<Sent>> = vec![Vec::new(); roster.len()];
         let mut unknown = Vec::new();
-        for sent in layout::hand_ins(folder)? {
+        for sent in layout::submissions(folder)? {
             match roster::find(roster, &sent.identity) {
                 Some(index) => sent_by[index].push(sent),
                 None => unknown.push(sent),
@@ -72,7 +72,7 @@ impl Class {
         Ok(Self { members, folder: folder.to_owned() })
     }
 
-    /// Tells the class when its hand-ins came.
+    /// Tells the class when its submissions came.
     ///
     /// # Errors
     /// If somebody is named whom nobody knows, or a file that is not there.

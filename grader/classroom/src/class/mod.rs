@@ -1,9 +1,9 @@
 //! Grading a whole class.
 //!
-//! [`layout`] recognises whose hand-ins lie in a folder, [`roster`] who should have handed in, [`Class`] brings both
+//! [`layout`] recognises whose submissions lie in a folder, [`roster`] who should have handed in, [`Class`] brings both
 //! together, `run` takes in and grades as many at once as there are cores, and keeps a [`record`] of each as it ends.
 //! [`gradebook`] makes tables of the records, the penalties of the policy included, [`systems`] fills the files of
-//! Moodle and ILIAS, [`page`] shows all of it, [`similar`] lists hand-ins that are the same or nearly so, for a person to look at.
+//! Moodle and ILIAS, [`page`] shows all of it, [`similar`] lists submissions that are the same or nearly so, for a person to look at.
 //!
 //! A record's points are raw. Everything that a date can change is computed anew each time that tables are made.
 

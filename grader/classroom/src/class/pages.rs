@@ -1,10 +1,10 @@
-//! The pages of one hand-in of a class: all that takes time is done once, pages are made again when a mark has changed.
+//! The pages of one submission of a class: all that takes time is done once, pages are made again when a mark has changed.
 
 use std::path::Path;
 
-use super::record::{Record, Shelf};
+use super::record::{Record, ResultDir};
 use crate::marks::Marks;
-use harness::build::HandInProgram;
+use harness::build::SubmissionProgram;
 use harness::workspace::Workspace;
 use judge::convergence::brief;
 use judge::grade::{Grader, Options};
@@ -15,7 +15,7 @@ use present::pictures::{load, save, thumbnail};
 use verdict::error::{Error, Result};
 use verdict::report::Report;
 
-/// Scenes of which pages have pictures: fewer than when one hand-in is graded, since those of a class take megabytes each.
+/// Scenes of which pages have pictures: fewer than when one submission is graded, since those of a class take megabytes each.
 const SCENES: usize = 2;
 
 /// Measures error against run time of a program that has just been graded, renders pictures, and keeps these and a small
@@ -23,9 +23,9 @@ const SCENES: usize = 2;
 pub(super) fn complete(
     workspace: &Workspace,
     grader: &Grader,
-    program: Option<&HandInProgram>,
+    program: Option<&SubmissionProgram>,
     report: &mut Report,
-    shelf: &Shelf,
+    result_dir: &ResultDir,
 ) -> Result<()> {
     let Options { seed, threads, .. } = grader.options();
     let mut shown = Vec::new();
@@ -34,42 +34,42 @@ pub(super) fn complete(
         report.convergence = Some(brief(workspace, program, solution.as_deref(), *seed)?);
         shown = pictures(workspace, program, report, *threads, *seed, SCENES)?;
     }
-    save(&shown, &shelf.pictures())?;
+    save(&shown, &result_dir.pictures())?;
     match thumbnail(&shown) {
-        Some(png) => {
-            Ok(arty::image::write_aside(&shelf.thumbnail(), |file| std::io::Write::write_all(file, &png))?)
-        }
-        None => remove(&shelf.thumbnail()),
+        Some(png) => Ok(arty::image::write_aside(&result_dir.thumbnail(), |file| {
+            std::io::Write::write_all(file, &png)
+        })?),
+        None => remove(&result_dir.thumbnail()),
     }
 }
 
-/// Makes both pages of a graded hand-in, unless those that are there were made of the same report and marks. `path` is
+/// Makes both pages of a graded submission, unless those that are there were made of the same report and marks. `path` is
 /// what students call their file.
-pub(super) fn make(shelf: &Shelf, record: &Record, marks: &Marks, path: &str) -> Result<()> {
+pub(super) fn make(result_dir: &ResultDir, record: &Record, marks: &Marks, path: &str) -> Result<()> {
     let mut hasher = blake3::Hasher::new();
     hasher.update(record.key.as_bytes()).update(record.report.as_bytes()).update(path.as_bytes());
     for mark in marks.of(&record.source) {
         hasher.update(format!("{mark:?}").as_bytes());
     }
     let made_of = hasher.finalize().to_hex().to_string();
-    if std::fs::read_to_string(shelf.made_of()).is_ok_and(|earlier| earlier == made_of) {
+    if std::fs::read_to_string(result_dir.made_of()).is_ok_and(|earlier| earlier == made_of) {
         return Ok(());
     }
-    let mut report = Report::load(&shelf.report())?;
+    let mut report = Report::load(&result_dir.report())?;
     marks.apply(&mut report);
-    let shown = load(&shelf.pictures()).unwrap_or_default();
-    write_pages(&report, &shown, &shelf.report(), Readers::Staff(Some(path)))?;
+    let shown = load(&result_dir.pictures()).unwrap_or_default();
+    write_pages(&report, &shown, &result_dir.report(), Readers::Staff(Some(path)))?;
     // Last, so that pages of which one is missing are made again.
-    Ok(arty::image::write_aside(&shelf.made_of(), |file| {
+    Ok(arty::image::write_aside(&result_dir.made_of(), |file| {
         std::io::Write::write_all(file, made_of.as_bytes())
     })?)
 }
 
-/// Removes what an earlier hand-in of the same student has left.
-pub(super) fn clear(shelf: &Shelf) -> Result<()> {
-    remove(&shelf.made_of())?;
-    remove(&shelf.thumbnail())?;
-    remove_pages(&shelf.report())
+/// Removes what an earlier submission of the same student has left.
+pub(super) fn clear(result_dir: &ResultDir) -> Result<()> {
+    remove(&result_dir.made_of())?;
+    remove(&result_dir.thumbnail())?;
+    remove_pages(&result_dir.report())
 }
 
 fn remove(path: &Path) -> Result<()> {

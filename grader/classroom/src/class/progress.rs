@@ -7,7 +7,7 @@ use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
 use verdict::check::{CheckResult, Verdict};
 
-/// A live table on a terminal, a line for each hand-in elsewhere.
+/// A live table on a terminal, a line for each submission elsewhere.
 pub(super) struct Progress {
     all: Option<MultiProgress>,
     total: ProgressBar,
@@ -27,7 +27,7 @@ impl Progress {
         let total =
             all.as_ref().map_or_else(ProgressBar::hidden, |all| all.add(ProgressBar::new(count as u64)));
         if let Ok(style) =
-            ProgressStyle::with_template("{bar:30} {pos} of {len} hand-ins, {elapsed} ({eta} to go)")
+            ProgressStyle::with_template("{bar:30} {pos} of {len} submissions, {elapsed} ({eta} to go)")
         {
             total.set_style(style);
         }
@@ -44,7 +44,7 @@ impl Progress {
         Line { bar, passed: 0, done: 0 }
     }
 
-    /// One hand-in more has ended.
+    /// One submission more has ended.
     pub(super) fn ended(&self, number: usize, text: &str) {
         match &self.all {
             // A terminal that is gone is no reason to stop.
@@ -60,7 +60,7 @@ impl Progress {
 }
 
 impl Line {
-    /// A hand-in begins.
+    /// A submission begins.
     pub(super) fn begin(&mut self, student: &str) {
         (self.passed, self.done) = (0, 0);
         if let Some(bar) = &self.bar {

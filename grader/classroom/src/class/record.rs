@@ -1,4 +1,4 @@
-//! What is kept of a graded hand-in, beside its report.
+//! What is kept of a graded submission, beside its report.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use arty::integrator::Technique;
 use serde::{Deserialize, Serialize};
 
-use intake::HandIn;
+use intake::Intake;
 use present::page::{pages_beside, pictures_beside};
 use present::words;
 use verdict::check::{CheckKind, CheckResult, Evidence, Reason, Verdict};
@@ -17,7 +17,7 @@ use verdict::submission::{Explanation, IntakeFinding};
 /// The version of the format.
 const SCHEMA: &str = "arty-record/1";
 
-/// What is kept of a hand-in. Its points are raw: what a date can change is not among them.
+/// What is kept of a submission. Its points are raw: what a date can change is not among them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// The version of the format.
@@ -57,9 +57,9 @@ pub struct Record {
 }
 
 impl Record {
-    /// Of a hand-in that cannot be graded, or has been.
-    pub(super) fn new(key: String, hand_in: &HandIn, tasks: &[String], report: Option<&Report>) -> Self {
-        let reason = match (&hand_in.outcome, report) {
+    /// Of a submission that cannot be graded, or has been.
+    pub(super) fn new(key: String, intake: &Intake, tasks: &[String], report: Option<&Report>) -> Self {
+        let reason = match (&intake.outcome, report) {
             (Err(refusal), _) => Some(IntakeFinding::from(refusal)),
             (Ok(_), Some(report)) => reason(report),
             (Ok(_), None) => None,
@@ -70,7 +70,7 @@ impl Record {
             schema: SCHEMA.to_owned(),
             key,
             reason,
-            notes: hand_in.notes.iter().map(IntakeFinding::from).collect(),
+            notes: intake.notes.iter().map(IntakeFinding::from).collect(),
             tasks: report.map_or(nothing, |report| {
                 report.tasks.iter().map(|task| (task.id.clone(), task.points)).collect()
             }),
@@ -82,8 +82,8 @@ impl Record {
                     .collect()
             }),
             earned: report.map_or(0.0, |report| report.points.earned),
-            explanations: hand_in.explanations.clone(),
-            checksums: hand_in.checksums.clone(),
+            explanations: intake.explanations.clone(),
+            checksums: intake.checksums.clone(),
             source: report.map_or_else(String::new, |report| report.submission.hash.clone()),
             graded_at: jiff::Timestamp::now().strftime("%FT%TZ").to_string(),
             seconds: report.map_or(0.0, |report| report.cost.build + report.cost.run),
@@ -142,14 +142,14 @@ fn reason(report: &Report) -> Option<IntakeFinding> {
     })
 }
 
-/// The folder of one hand-in's results.
+/// The folder of one submission's results.
 #[derive(Clone, Debug)]
-pub(super) struct Shelf(PathBuf);
+pub(super) struct ResultDir(PathBuf);
 
-impl Shelf {
+impl ResultDir {
     /// In the folder of all results.
     pub(super) fn new(out: &Path, key: &str) -> Self {
-        Self(out.join("hand-ins").join(key))
+        Self(out.join("submissions").join(key))
     }
 
     pub(super) fn report(&self) -> PathBuf {

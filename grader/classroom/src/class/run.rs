@@ -1,6 +1,6 @@
-//! Taking in and grading all hand-ins of a class, as many at once as there are cores.
+//! Taking in and grading all submissions of a class, as many at once as there are cores.
 //!
-//! Each hand-in renders with one thread, so that it takes one core and leaves the others alone: the times of several
+//! Each submission renders with one thread, so that it takes one core and leaves the others alone: the times of several
 //! are those that each would have by itself, and no core waits while rustc or the grader's own part runs. Verdicts
 //! depend on seeds alone, not on how many are graded at once or in which order.
 
@@ -13,14 +13,14 @@ use std::time::{Duration, Instant};
 
 use super::gradebook::{Row, State};
 use super::progress::{Line, Progress};
-use super::record::{Record, Shelf};
+use super::record::{Record, ResultDir};
 use super::similar::{Fingerprint, Starter};
 use super::{Class, Member, pages};
 use crate::marks::Marks;
 use crate::policy::{Lateness, Policy, Receipt, the_one_that_counts};
 use harness::tree_hash::hash_judging;
 use harness::workspace::Workspace;
-use intake::{self, HandIn};
+use intake::{self, Intake};
 use judge::grade::{Grader, Options};
 use judge::reference::Oracle;
 use verdict::error::{Error, Result};
@@ -30,15 +30,15 @@ use verdict::submission::IntakeFinding;
 /// How a class is graded.
 #[derive(Clone, Debug)]
 pub struct RunOptions {
-    /// What each hand-in is graded by.
+    /// What each submission is graded by.
     pub grade: Options,
     /// How many at once.
     pub jobs: usize,
     /// The folder of the results.
     pub out: PathBuf,
-    /// True if hand-ins are graded again of which nothing has changed.
+    /// True if submissions are graded again of which nothing has changed.
     pub regrade: bool,
-    /// True if each hand-in gets its pages, and pictures on them.
+    /// True if each submission gets its pages, and pictures on them.
     pub pages: bool,
 }
 
@@ -46,7 +46,7 @@ pub struct RunOptions {
 pub struct Outcome {
     /// A row for each member, in their order.
     pub rows: Vec<Row>,
-    /// What is needed to compare hand-ins, by row key.
+    /// What is needed to compare submissions, by row key.
     pub fingerprints: BTreeMap<String, Fingerprint>,
     /// Scores that are not what they were, for people.
     pub changes: Vec<String>,
@@ -76,14 +76,14 @@ struct Shared<'a> {
     marks: Marks,
 }
 
-/// The hand-in of a member that counts.
+/// The submission of a member that counts.
 struct Taken {
-    hand_in: HandIn,
+    intake: Intake,
     receipt: Option<Receipt>,
     lateness: Option<Lateness>,
 }
 
-/// What is known of a hand-in once it is taken in and graded.
+/// What is known of a submission once it is taken in and graded.
 struct Settled {
     record: Record,
     fingerprint: Option<Fingerprint>,
@@ -92,7 +92,7 @@ struct Settled {
     graded: bool,
 }
 
-/// What a worker sends of one hand-in.
+/// What a worker sends of one submission.
 struct Done {
     index: usize,
     row: Row,
@@ -104,7 +104,7 @@ struct Done {
 /// Grades a class. `save` is called with the rows so far every few seconds, so that there is a table at any time.
 ///
 /// # Errors
-/// If nothing at all can be graded. What goes wrong with one hand-in is in its row.
+/// If nothing at all can be graded. What goes wrong with one submission is in its row.
 pub fn run(
     workspace: &Workspace,
     class: &Class,
@@ -170,7 +170,7 @@ pub fn run(
     Ok(outcome)
 }
 
-/// Takes one hand-in after the other until there is none left, or nobody listens any more.
+/// Takes one submission after the other until there is none left, or nobody listens any more.
 fn work(shared: &Shared<'_>, next: &AtomicUsize, mut line: Line, results: &Sender<Done>) {
     loop {
         let index = next.fetch_add(1, Ordering::Relaxed);
@@ -185,14 +185,15 @@ fn work(shared: &Shared<'_>, next: &AtomicUsize, mut line: Line, results: &Sende
 impl Shared<'_> {
     /// Everything about one member of the class.
     fn settle(&self, index: usize, member: &Member, line: &mut Line) -> Done {
-        let shelf = Shelf::new(&self.options.out, &member.key);
-        let before = shelf.load();
-        // A fault of the grader in one hand-in must not cost the others theirs.
-        let attempt = catch_unwind(AssertUnwindSafe(|| self.attempt(member, &shelf, before.as_ref(), line)))
-            .unwrap_or_else(|_| Err(Error::Harness("the grader panicked".to_owned())));
+        let result_dir = ResultDir::new(&self.options.out, &member.key);
+        let before = result_dir.load();
+        // A fault of the grader in one submission must not cost the others theirs.
+        let attempt =
+            catch_unwind(AssertUnwindSafe(|| self.attempt(member, &result_dir, before.as_ref(), line)))
+                .unwrap_or_else(|_| Err(Error::Harness("the grader panicked".to_owned())));
         match attempt {
             Ok(Some(settled)) => {
-                self.pages(member, &shelf, &settled.record);
+                self.pages(member, &result_dir, &settled.record);
                 let Settled { record, fingerprint, lateness, receipt, graded } = settled;
                 let change = before.as_ref().and_then(|before| change(&member.key, before, &record));
                 let row =
@@ -224,11 +225,11 @@ impl Shared<'_> {
         }
     }
 
-    /// Makes the pages of a hand-in. They decide nothing: what goes wrong with them is said, and changes no row.
-    fn pages(&self, member: &Member, shelf: &Shelf, record: &Record) {
+    /// Makes the pages of a submission. They decide nothing: what goes wrong with them is said, and changes no row.
+    fn pages(&self, member: &Member, result_dir: &ResultDir, record: &Record) {
         let made = match (self.options.pages, record.report.is_empty()) {
-            (true, false) => pages::make(shelf, record, &self.marks, &self.student_file),
-            _ => pages::clear(shelf),
+            (true, false) => pages::make(result_dir, record, &self.marks, &self.student_file),
+            _ => pages::clear(result_dir),
         };
         if let Err(error) = made {
             eprintln!("warning: the page of {}: {error}", verdict::text::harmless(&member.key));
@@ -239,16 +240,16 @@ impl Shared<'_> {
     fn attempt(
         &self,
         member: &Member,
-        shelf: &Shelf,
+        result_dir: &ResultDir,
         before: Option<&Record>,
         line: &mut Line,
     ) -> Result<Option<Settled>> {
-        let Some(Taken { hand_in, receipt, lateness }) = self.take(member)? else { return Ok(None) };
-        let source = hand_in.outcome.as_ref().map_or("", |submission| submission.source.as_str());
+        let Some(Taken { intake, receipt, lateness }) = self.take(member)? else { return Ok(None) };
+        let source = intake.outcome.as_ref().map_or("", |submission| submission.source.as_str());
         let key = self.key(source);
-        let fingerprint = hand_in.outcome.is_ok().then(|| self.starter.fingerprint(source));
-        let mut record = Record::new(key, &hand_in, &self.tasks, None);
-        let mut graded = match &hand_in.outcome {
+        let fingerprint = intake.outcome.is_ok().then(|| self.starter.fingerprint(source));
+        let mut record = Record::new(key, &intake, &self.tasks, None);
+        let mut graded = match &intake.outcome {
             Err(_) => None,
             Ok(_) if !self.options.regrade && before.is_some_and(|before| before.key == record.key) => {
                 // What came with the source may have changed, though the verdicts have not.
@@ -262,13 +263,13 @@ impl Shared<'_> {
         };
         let report = graded.as_ref().map(|(report, _)| report);
         if let Some(report) = report {
-            record = Record::new(record.key, &hand_in, &self.tasks, Some(report));
+            record = Record::new(record.key, &intake, &self.tasks, Some(report));
         }
-        pages::clear(shelf)?;
-        shelf.save(&mut record, report)?;
+        pages::clear(result_dir)?;
+        result_dir.save(&mut record, report)?;
         if let (Some((report, program)), true) = (&mut graded, self.options.pages) {
-            match pages::complete(self.workspace, &self.grader, program.as_ref(), report, shelf) {
-                Ok(()) => shelf.save(&mut record, Some(report))?,
+            match pages::complete(self.workspace, &self.grader, program.as_ref(), report, result_dir) {
+                Ok(()) => result_dir.save(&mut record, Some(report))?,
                 Err(error) => {
                     let whose = verdict::text::harmless(&member.key);
                     eprintln!("warning: the report of {whose} is not complete: {error}");
@@ -278,14 +279,14 @@ impl Shared<'_> {
         Ok(Some(Settled { record, fingerprint, lateness, receipt, graded: graded.is_some() }))
     }
 
-    /// The hand-in that counts, of those that a member sent.
+    /// The submission that counts, of those that a member sent.
     fn take(&self, member: &Member) -> Result<Option<Taken>> {
         let names = member.names();
         let paths_of = |receipt: &Receipt| {
             let named = !receipt.path.is_empty();
             if named { vec![self.class.folder.join(&receipt.path)] } else { member.paths.clone() }
         };
-        let mut taken: BTreeMap<String, HandIn> = BTreeMap::new();
+        let mut taken: BTreeMap<String, Intake> = BTreeMap::new();
         for receipt in &member.receipts {
             let paths = paths_of(receipt);
             if !paths.is_empty() {
@@ -299,8 +300,8 @@ impl Shared<'_> {
         });
         if let Some((receipt, lateness)) = counts {
             let receipt = receipt.clone();
-            return Ok(taken.remove(&receipt.path).map(|hand_in| Taken {
-                hand_in,
+            return Ok(taken.remove(&receipt.path).map(|intake| Taken {
+                intake,
                 receipt: Some(receipt),
                 lateness: Some(lateness),
             }));
@@ -308,9 +309,9 @@ impl Shared<'_> {
         if member.paths.is_empty() {
             return Ok(None);
         }
-        let hand_in = intake::take(&member.paths, &self.starter_text)?;
-        let lateness = self.policy.map(|policy| policy.judge(&names, None, &hand_in.checksums));
-        Ok(Some(Taken { hand_in, receipt: None, lateness }))
+        let intake = intake::take(&member.paths, &self.starter_text)?;
+        let lateness = self.policy.map(|policy| policy.judge(&names, None, &intake.checksums));
+        Ok(Some(Taken { intake, receipt: None, lateness }))
     }
 
     fn key(&self, source: &str) -> String {
@@ -354,5 +355,5 @@ fn change(key: &str, before: &Record, after: &Record) -> Option<String> {
 
 /// True if a folder holds results of an earlier run.
 pub fn has_results(out: &Path) -> bool {
-    std::fs::read_dir(out.join("hand-ins")).is_ok_and(|mut entries| entries.next().is_some())
+    std::fs::read_dir(out.join("submissions")).is_ok_and(|mut entries| entries.next().is_some())
 }

@@ -1,4 +1,4 @@
-//! Hand-ins that are the same, or nearly so, for a person to look at. Nothing of this is in a student's report.
+//! Submissions that are the same, or nearly so, for a person to look at. Nothing of this is in a student's report.
 //!
 //! Sources are compared by fingerprints of their tokens: winnowing, as in Schleimer, Wilkerson and Aiken, "Winnowing:
 //! local algorithms for document fingerprinting" (SIGMOD 2003), section 4. Any run of `GRAM + WINDOW - 1` tokens that
@@ -93,7 +93,7 @@ impl Fingerprint {
     }
 }
 
-/// Hand-ins to look at together.
+/// Submissions to look at together.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Group {
     /// True if they differ in names, comments and layout only.
@@ -104,10 +104,10 @@ pub struct Group {
     pub pairs: Vec<(String, String, f64)>,
 }
 
-/// All groups, the identical ones first. Of identical hand-ins only the first is compared further.
-pub fn groups(hand_ins: &BTreeMap<String, Fingerprint>) -> Vec<Group> {
+/// All groups, the identical ones first. Of identical submissions only the first is compared further.
+pub fn groups(submissions: &BTreeMap<String, Fingerprint>) -> Vec<Group> {
     let mut same: BTreeMap<u64, Vec<&String>> = BTreeMap::new();
-    let comparable = hand_ins.iter().filter(|(_, print)| print.pieces.len() >= FEWEST);
+    let comparable = submissions.iter().filter(|(_, print)| print.pieces.len() >= FEWEST);
     for (student, print) in comparable {
         same.entry(print.whole).or_default().push(student);
     }
@@ -124,7 +124,7 @@ pub fn groups(hand_ins: &BTreeMap<String, Fingerprint>) -> Vec<Group> {
     let mut near: Vec<Group> = Vec::new();
     for (index, one) in first.iter().enumerate() {
         for other in &first[index + 1..] {
-            let similarity = hand_ins[*one].similarity(&hand_ins[*other]);
+            let similarity = submissions[*one].similarity(&submissions[*other]);
             if similarity >= THRESHOLD {
                 let rounded = (similarity * 1000.0).round() / 1000.0;
                 let (one, other) = (one.min(other), one.max(other));
@@ -163,7 +163,7 @@ fn join(groups: &mut Vec<Group>, pair: (String, String, f64)) {
 /// The groups as a text for staff.
 pub fn describe(groups: &[Group]) -> String {
     let mut text =
-        "Hand-ins that are alike, for a person to look at. This proves nothing: the exercise is small.\n\
+        "Submissions that are alike, for a person to look at. This proves nothing: the exercise is small.\n\
                     Compared are tokens, without names, comments, layout, and what the starting file has.\n"
             .to_owned();
     for group in groups {

@@ -10,7 +10,7 @@ use verdict::error::Result;
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Course {
-    /// The last moment at which a hand-in is in time. Without it, nothing is late.
+    /// The last moment at which a submission is in time. Without it, nothing is late.
     #[serde(default)]
     pub deadline: Option<String>,
     /// Students who have longer.

@@ -20,7 +20,7 @@ pub struct Policy {
     extensions: BTreeMap<String, (Timestamp, String)>,
 }
 
-/// How a hand-in stands to its deadline.
+/// How a submission stands to its deadline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Standing {
@@ -28,13 +28,13 @@ pub enum Standing {
     InTime,
     /// Late, and accepted.
     Late,
-    /// There is a deadline, but nobody said when the hand-in came. It counts in full, and somebody should look.
+    /// There is a deadline, but nobody said when the submission came. It counts in full, and somebody should look.
     Unknown,
     /// Too late.
     NotAccepted,
 }
 
-/// How a hand-in stands to its deadline, and what that means.
+/// How a submission stands to its deadline, and what that means.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lateness {
     /// In a word.
@@ -90,7 +90,7 @@ impl Policy {
         self.extensions.keys().map(String::as_str)
     }
 
-    /// How a hand-in stands. `checksums` are those of the files that came.
+    /// How a submission stands. `checksums` are those of the files that came.
     pub fn judge(&self, student: &[&str], receipt: Option<&Receipt>, checksums: &[String]) -> Lateness {
         let in_time = |why: String| Lateness { standing: Standing::InTime, late_by: None, factor: 1.0, why };
         let Some((deadline, extension)) = self.deadline(student) else { return in_time(String::new()) };

@@ -1,4 +1,4 @@
-//! When hand-ins came: a CSV file of the staff's.
+//! When submissions came: a CSV file of the staff's.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -10,7 +10,7 @@ use super::{Lateness, Policy, Standing, parse_received};
 use crate::table::Table;
 use verdict::error::{Error, Result};
 
-/// What is known of one hand-in's arrival.
+/// What is known of one submission's arrival.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Receipt {
     /// When the file came.
@@ -24,7 +24,7 @@ pub struct Receipt {
 }
 
 /// All receipts of a class. The columns of the file are `student` (login, number, e-mail address, or the name of the
-/// hand-in's folder), `received_at`, and where they are needed `md5`, `md5_received_at` and `path`. A student who sent
+/// submission's folder), `received_at`, and where they are needed `md5`, `md5_received_at` and `path`. A student who sent
 /// several has several rows.
 #[derive(Clone, Debug, Default)]
 pub struct Manifest {
@@ -78,7 +78,7 @@ impl Manifest {
     }
 }
 
-/// Of several hand-ins, the last that is accepted counts; if none is, the last. What came at the same time counts in
+/// Of several submissions, the last that is accepted counts; if none is, the last. What came at the same time counts in
 /// the order of the manifest.
 pub(crate) fn the_one_that_counts<'a>(
     policy: &Policy,

@@ -1,8 +1,8 @@
-//! When a hand-in counts, and how much.
+//! When a submission counts, and how much.
 //!
 //! The rules of the sheet ([`Rules`]) stand in the rubric; the dates of a course and the extensions of its students
 //! ([`Course`]) in a file of the course's own, since they change each term and concern nobody else. Both together are
-//! a [`Policy`]. When a hand-in came is told by the staff's side alone ([`Manifest`]), never by the times of files.
+//! a [`Policy`]. When a submission came is told by the staff's side alone ([`Manifest`]), never by the times of files.
 //! Raw points are what is stored; the penalty is computed from them and the policy each time that a table is made.
 
 mod course;

@@ -98,7 +98,7 @@ fn run(workspace: &Workspace, compiler: &Compiler, arguments: &[&str]) -> Result
         .arg(workspace.framework_target())
         .current_dir(workspace.root())
         .stdin(Stdio::null());
-    // Neither what this process was built with nor somebody's settings may change what hand-ins are linked against.
+    // Neither what this process was built with nor somebody's settings may change what submissions are linked against.
     for (name, _) in std::env::vars_os() {
         if decides(&name.to_string_lossy()) {
             cargo.env_remove(name);

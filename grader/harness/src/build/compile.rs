@@ -1,4 +1,4 @@
-//! One call of rustc: the hand-in, the fixed program around it, the framework.
+//! One call of rustc: the submission, the fixed program around it, the framework.
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -16,12 +16,12 @@ use verdict::error::{Error, Result};
 use verdict::submission::BuildFailure;
 use verdict::text::clean;
 
-/// The program around a hand-in.
+/// The program around a submission.
 const PROGRAM: &str = include_str!("../../../host/program/main.rs");
 
-/// A hand-in, compiled. Its files are removed when this is dropped.
+/// A submission, compiled. Its files are removed when this is dropped.
 #[derive(Debug)]
-pub struct HandInProgram {
+pub struct SubmissionProgram {
     /// The program.
     pub executable: PathBuf,
     /// How long rustc took; nothing if it was compiled earlier.
@@ -33,7 +33,7 @@ pub struct HandInProgram {
     folder: Scratch,
 }
 
-impl HandInProgram {
+impl SubmissionProgram {
     /// The user that it is run as.
     pub(crate) fn account(&self) -> &Arc<Account> {
         self.folder.account()
@@ -64,7 +64,7 @@ pub fn recipe() -> blake3::Hash {
     blake3::hash(&[PROGRAM.as_bytes(), include_bytes!("compile.rs")].concat())
 }
 
-/// A hand-in that compiles wherever compiling works at all.
+/// A submission that compiles wherever compiling works at all.
 pub(crate) const EMPTY_HAND_IN: &str = "use arty::prelude::*;
 pub struct PathTracer;
 impl PathTracer { pub fn new(_: Settings) -> Self { Self } }
@@ -73,13 +73,13 @@ impl Integrator for PathTracer {
 }
 ";
 
-/// Compiles the source of a hand-in, in a sandbox, unless it says something that has it refused, and looks at what was
-/// linked. The outer error is the harness's, the inner one the hand-in's.
+/// Compiles the source of a submission, in a sandbox, unless it says something that has it refused, and looks at what was
+/// linked. The outer error is the harness's, the inner one the submission's.
 pub fn compile(
     framework: &Framework,
     source: &str,
     limits: &Limits,
-) -> Result<std::result::Result<HandInProgram, BuildFailure>> {
+) -> Result<std::result::Result<SubmissionProgram, BuildFailure>> {
     if !limits.inspect {
         return compile_anywhere(framework, source, limits);
     }
@@ -105,28 +105,28 @@ pub fn compile(
     Ok(if differences.is_empty() { Ok(program) } else { Err(not_run(None, &differences)) })
 }
 
-/// In what a program differs from that of an empty hand-in, of all that decides what runs before `main`: in words, and in
+/// In what a program differs from that of an empty submission, of all that decides what runs before `main`: in words, and in
 /// nothing unless something is wrong.
 ///
 /// # Errors
 /// If one of them cannot be read.
-pub fn differences(framework: &Framework, program: &HandInProgram) -> Result<Vec<String>> {
+pub fn differences(framework: &Framework, program: &SubmissionProgram) -> Result<Vec<String>> {
     let usual = usual_shape(framework, &program.limits)?;
     Ok(Shape::of(&program.executable)?.differences(usual))
 }
 
-/// Compiles a hand-in that must compile wherever anything does. What is linked of others is held against it.
+/// Compiles a submission that must compile wherever anything does. What is linked of others is held against it.
 ///
 /// # Errors
 /// If it does not.
-pub(crate) fn compile_empty(framework: &Framework, limits: &Limits) -> Result<HandInProgram> {
+pub(crate) fn compile_empty(framework: &Framework, limits: &Limits) -> Result<SubmissionProgram> {
     let program = match compile_once(framework, EMPTY_HAND_IN, limits, true)? {
         Ok(program) => program,
         // A toolchain whose files lie where the sandbox does not expect them. The report will tell its level.
         Err(_) => compile_once(framework, EMPTY_HAND_IN, limits, false)?.map_err(|failure| {
             let folder = framework.dependencies.display();
             Error::Harness(format!(
-                "not even an empty hand-in compiles here, against the libraries in {folder}:\n{}",
+                "not even an empty submission compiles here, against the libraries in {folder}:\n{}",
                 failure.messages
             ))
         })?,
@@ -140,14 +140,14 @@ fn usual_shape<'a>(framework: &'a Framework, limits: &Limits) -> Result<&'a Shap
         compile_empty(framework, limits)?;
     }
     let usual = framework.usual.get().and_then(Option::as_ref);
-    usual.ok_or_else(|| Error::Harness("the program of an empty hand-in cannot be read".to_owned()))
+    usual.ok_or_else(|| Error::Harness("the program of an empty submission cannot be read".to_owned()))
 }
 
 /// The failure of a source that is not even compiled.
 fn refused(refusals: &[refuse::Refusal]) -> BuildFailure {
     let lines = refusals.iter().map(|refusal| {
         let refuse::Refusal { line, what, why } = refusal;
-        format!("error: {what} is not allowed in a hand-in\n --> render_pt.rs:{line}\n  = {why}\n")
+        format!("error: {what} is not allowed in a submission\n --> render_pt.rs:{line}\n  = {why}\n")
     });
     let line = refusals.first().and_then(|refusal| u32::try_from(refusal.line).ok());
     BuildFailure { messages: clean(&lines.collect::<Vec<_>>().join("\n")), line }
@@ -156,7 +156,7 @@ fn refused(refusals: &[refuse::Refusal]) -> BuildFailure {
 /// The failure of a program that was compiled, and must not run.
 fn not_run(line: Option<usize>, why: &[String]) -> BuildFailure {
     let mut messages =
-        "error: the program is not run: it is not what an ordinary hand-in compiles to\n".to_owned();
+        "error: the program is not run: it is not what an ordinary submission compiles to\n".to_owned();
     if let Some(line) = line {
         messages.push_str(&format!(" --> render_pt.rs:{line}\n"));
     }
@@ -174,7 +174,7 @@ fn compile_anywhere(
     framework: &Framework,
     source: &str,
     limits: &Limits,
-) -> Result<std::result::Result<HandInProgram, BuildFailure>> {
+) -> Result<std::result::Result<SubmissionProgram, BuildFailure>> {
     let failure = match compile_once(framework, source, limits, true)? {
         Ok(program) => return Ok(Ok(program)),
         Err(failure) => failure,
@@ -183,7 +183,7 @@ fn compile_anywhere(
         let folder = framework.dependencies.display();
         return Err(Error::Harness(format!("the framework's libraries are gone from {folder}: grade again")));
     }
-    // No line of the hand-in is to blame: is it the machine? A missing linker, a full disk?
+    // No line of the submission is to blame: is it the machine? A missing linker, a full disk?
     if failure.line.is_some() || compile_once(framework, EMPTY_HAND_IN, limits, true)?.is_ok() {
         return Ok(Err(failure));
     }
@@ -197,12 +197,12 @@ fn compile_once(
     source: &str,
     limits: &Limits,
     locked: bool,
-) -> Result<std::result::Result<HandInProgram, BuildFailure>> {
+) -> Result<std::result::Result<SubmissionProgram, BuildFailure>> {
     let trouble = |what: &str, error: std::io::Error| Error::Harness(format!("{what}: {error}"));
     let folder = Scratch::new()?;
     for (name, text) in [("main.rs", PROGRAM), ("render_pt.rs", source)] {
         std::fs::write(folder.path().join(name), text)
-            .map_err(|error| trouble("the hand-in cannot be copied", error))?;
+            .map_err(|error| trouble("the submission cannot be copied", error))?;
     }
     let messages = std::fs::File::create(folder.path().join(MESSAGES))
         .map_err(|error| trouble("no file for rustc's messages", error))?;
@@ -225,7 +225,7 @@ fn compile_once(
     if status.success() {
         let executable = folder.path().join(executable_name());
         let limits = *limits;
-        return Ok(Ok(HandInProgram { executable, compile_time, limits, layers, folder }));
+        return Ok(Ok(SubmissionProgram { executable, compile_time, limits, layers, folder }));
     }
     let messages = read_messages(&folder.path().join(MESSAGES))
         .map_err(|error| trouble("rustc's messages are gone", error))?;
@@ -263,7 +263,7 @@ fn read_messages(file: &Path) -> std::io::Result<String> {
 const LONGEST_MESSAGES: u64 = 256 << 10;
 
 fn executable_name() -> String {
-    format!("hand-in{}", std::env::consts::EXE_SUFFIX)
+    format!("submission{}", std::env::consts::EXE_SUFFIX)
 }
 
 /// What rustc's call of the linker may need of the environment, on one system or another. `env!` can read no more.
@@ -301,7 +301,7 @@ fn call(framework: &Framework, folder: &Path) -> Command {
         .envs(KEPT.iter().filter_map(|&name| Some((name, std::env::var_os(name)?))))
         // The linker's intermediate files.
         .env("TMPDIR", folder)
-        .args(["main.rs", "--crate-name", "hand_in", "--edition", "2024", "--crate-type", "bin", "-o"])
+        .args(["main.rs", "--crate-name", "submission", "--edition", "2024", "--crate-type", "bin", "-o"])
         .arg(executable_name())
         .args(["-C", "opt-level=3", "-C", "codegen-units=1", "-C", "debuginfo=0", "-C", "strip=debuginfo"])
         // The student's warnings are the student's matter. (Capping lints would lift the ban on unsafe code.)

@@ -1,4 +1,4 @@
-//! The prebuilt framework that every hand-in is linked against.
+//! The prebuilt framework that every submission is linked against.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
@@ -14,7 +14,7 @@ use verdict::error::Result;
 
 /// The compiled libraries of the framework, as Cargo built them from the sources of this checkout.
 ///
-/// The hand-in has no part in this build: no file of it ever reaches Cargo.
+/// The submission has no part in this build: no file of it ever reaches Cargo.
 #[derive(Clone, Debug)]
 pub struct Framework {
     /// The library `arty`.
@@ -31,7 +31,7 @@ pub struct Framework {
     pub rustc: PathBuf,
     /// What the compiler needs to be granted.
     pub grants: Grants,
-    /// The shape of the program of an empty hand-in, once one was compiled; `None` if it could not be read.
+    /// The shape of the program of an empty submission, once one was compiled; `None` if it could not be read.
     pub(super) usual: Arc<OnceLock<Option<Shape>>>,
     /// Nobody removes it as long as this is there.
     kept: Option<Arc<Kept>>,
@@ -44,19 +44,19 @@ impl Framework {
     /// If it does not build, or if there is no compiler.
     pub fn build(workspace: &Workspace) -> Result<Self> {
         let compiler = Compiler::of(workspace.root())?;
-        let (shelf, key) = (kept::shelf(), key_of(workspace, &compiler)?);
-        let find = || Kept::find(shelf.as_deref()?, &key);
+        let (cache_dir, key) = (kept::cache_dir(), key_of(workspace, &compiler)?);
+        let find = || Kept::find(cache_dir.as_deref()?, &key);
         if let Some(kept) = find() {
             return Ok(Self::of_kept(kept, key, &compiler));
         }
         let built = cargo::build(workspace, &compiler, &key)?;
         // Somebody may have saved another source meanwhile, or have been faster.
-        if let Some(shelf) = &shelf
+        if let Some(cache_dir) = &cache_dir
             && key_of(workspace, &compiler).is_ok_and(|now| now == key)
             && find().is_none()
         {
             // Who cannot keep it uses what Cargo has built.
-            let _ = Kept::keep(shelf, &key, &built);
+            let _ = Kept::keep(cache_dir, &key, &built);
         }
         Ok(match find() {
             Some(kept) => Self::of_kept(kept, key, &compiler),
@@ -69,7 +69,8 @@ impl Framework {
 
     /// True if none was ever built for this user or in this checkout, so that it is worth a word that it takes its time.
     pub fn is_first(workspace: &Workspace) -> bool {
-        !workspace.framework_target().exists() && !kept::shelf().is_some_and(|shelf| shelf.exists())
+        !workspace.framework_target().exists()
+            && !kept::cache_dir().is_some_and(|cache_dir| cache_dir.exists())
     }
 
     fn of_kept(kept: Kept, key: String, compiler: &Compiler) -> Self {

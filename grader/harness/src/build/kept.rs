@@ -17,14 +17,14 @@ use super::cargo::Libraries;
 use super::scratch::{IN_USE, remove_unused};
 
 /// How many stay, the one in use included.
-const MOST: usize = 4;
+const MAX_KEPT: usize = 4;
 
 /// How names of folders begin that are not whole yet.
 const BEGUN: &str = "begun-";
 
 /// The folder for the frameworks of a user; it may be one that nobody can write to.
-pub(super) fn shelf() -> Option<PathBuf> {
-    // Root's own folders are closed to the user that a hand-in is compiled by, if nobody has named another.
+pub(super) fn cache_dir() -> Option<PathBuf> {
+    // Root's own folders are closed to the user that a submission is compiled by, if nobody has named another.
     #[cfg(unix)]
     if rustix::process::geteuid().is_root() && std::env::var_os("XDG_CACHE_HOME").is_none() {
         return Some(PathBuf::from("/var/cache/arty/frameworks"));
@@ -54,8 +54,8 @@ const LIBRARIES: &str = "libraries";
 
 impl Kept {
     /// Looks for a framework; `None` if it is not there, or not as it was put there.
-    pub(super) fn find(shelf: &Path, key: &str) -> Option<Self> {
-        let folder = shelf.join(key);
+    pub(super) fn find(cache_dir: &Path, key: &str) -> Option<Self> {
+        let folder = cache_dir.join(key);
         // For both, since some file systems lock for reading only who may read.
         let in_use = OpenOptions::new().read(true).write(true).open(folder.join(IN_USE)).ok()?;
         // Who makes or removes it does not take long.
@@ -74,9 +74,9 @@ impl Kept {
     }
 
     /// Keeps what Cargo has built, for [`find`](Self::find), in place of what is damaged or has not been used for long.
-    pub(super) fn keep(shelf: &Path, key: &str, built: &Libraries) -> Result<()> {
-        std::fs::create_dir_all(shelf)?;
-        let folder = tempfile::Builder::new().prefix(BEGUN).tempdir_in(shelf)?;
+    pub(super) fn keep(cache_dir: &Path, key: &str, built: &Libraries) -> Result<()> {
+        std::fs::create_dir_all(cache_dir)?;
+        let folder = tempfile::Builder::new().prefix(BEGUN).tempdir_in(cache_dir)?;
         open_to_others(folder.path())?;
         let in_use = File::create(folder.path().join(IN_USE))?;
         in_use.try_lock()?;
@@ -91,14 +91,14 @@ impl Kept {
         }
         let contents = Contents { arty: name_of(&built.arty)?, host: name_of(&built.host)?, sizes };
         std::fs::write(folder.path().join(CONTENTS), serde_json::to_vec_pretty(&contents)?)?;
-        let place = shelf.join(key);
+        let place = cache_dir.join(key);
         remove_unused(&place);
         // Windows moves no folder with an open file.
         let in_use = (!cfg!(windows)).then_some(in_use);
         std::fs::rename(folder.path(), &place)?;
         drop(in_use);
         drop(folder.keep());
-        remove_old(shelf);
+        remove_old(cache_dir);
         Ok(())
     }
 
@@ -131,14 +131,14 @@ fn open_to_others(folder: &Path) -> Result<()> {
 }
 
 /// Removes what nobody uses, but for those used last; also what was begun by graders that are gone.
-fn remove_old(shelf: &Path) {
-    let entries = || std::fs::read_dir(shelf).into_iter().flatten().flatten();
+fn remove_old(cache_dir: &Path) {
+    let entries = || std::fs::read_dir(cache_dir).into_iter().flatten().flatten();
     let is_begun = |entry: &DirEntry| entry.file_name().to_string_lossy().starts_with(BEGUN);
     let last_use = |folder: &Path| std::fs::metadata(folder.join(IN_USE)).and_then(|file| file.modified());
     let whole = entries().filter(|entry| !is_begun(entry)).map(|entry| entry.path());
     let mut whole: Vec<_> = whole.map(|folder| (last_use(&folder).ok(), folder)).collect();
     whole.sort_by(|a, b| b.cmp(a));
-    whole.into_iter().skip(MOST).for_each(|(_, folder)| remove_unused(&folder));
+    whole.into_iter().skip(MAX_KEPT).for_each(|(_, folder)| remove_unused(&folder));
     entries().filter(is_begun).for_each(|entry| remove_unused(&entry.path()));
 }
 
@@ -159,18 +159,18 @@ mod tests {
         Libraries { all: vec![arty.clone(), host.clone(), file("libglam.rlib")], arty, host }
     }
 
-    fn keep(shelf: &Path, key: &str) -> Result<()> {
+    fn keep(cache_dir: &Path, key: &str) -> Result<()> {
         let target = tempfile::tempdir().expect("a temporary folder");
-        Kept::keep(shelf, key, &built(target.path(), key))
+        Kept::keep(cache_dir, key, &built(target.path(), key))
     }
 
     #[test]
     fn what_is_kept_is_found_with_all_that_it_needs_and_not_under_another_key() {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let shelf = folder.path().join("of/this/user");
-        keep(&shelf, "one").expect("it can be kept");
-        assert!(Kept::find(&shelf, "another").is_none());
-        let kept = Kept::find(&shelf, "one").expect("it was kept");
+        let cache_dir = folder.path().join("of/this/user");
+        keep(&cache_dir, "one").expect("it can be kept");
+        assert!(Kept::find(&cache_dir, "another").is_none());
+        let kept = Kept::find(&cache_dir, "one").expect("it was kept");
         let text = |file: PathBuf| std::fs::read_to_string(file).expect("it is there");
         assert_eq!(text(kept.arty()), "libarty.rlib: one");
         assert_eq!(text(kept.host()), "libhost.rlib: one");
@@ -184,55 +184,55 @@ mod tests {
             ("libglam.rlib", Some("longer than it was")),
             ("libglam.rlib", None),
         ] {
-            let shelf = tempfile::tempdir().expect("a temporary folder");
-            keep(shelf.path(), "one").expect("it can be kept");
-            let file = shelf.path().join("one").join(LIBRARIES).join(name);
+            let cache_dir = tempfile::tempdir().expect("a temporary folder");
+            keep(cache_dir.path(), "one").expect("it can be kept");
+            let file = cache_dir.path().join("one").join(LIBRARIES).join(name);
             match damage {
                 Some(text) => std::fs::write(file, text).expect("it can be written"),
                 None => std::fs::remove_file(file).expect("it is there"),
             }
-            assert!(Kept::find(shelf.path(), "one").is_none(), "{name} {damage:?}");
-            keep(shelf.path(), "one").expect("it can be kept");
-            assert!(Kept::find(shelf.path(), "one").is_some());
+            assert!(Kept::find(cache_dir.path(), "one").is_none(), "{name} {damage:?}");
+            keep(cache_dir.path(), "one").expect("it can be kept");
+            assert!(Kept::find(cache_dir.path(), "one").is_some());
         }
     }
 
     #[test]
     fn only_the_last_used_stay_and_those_in_use() {
-        let shelf = tempfile::tempdir().expect("a temporary folder");
-        let shelf = shelf.path();
+        let cache_dir = tempfile::tempdir().expect("a temporary folder");
+        let cache_dir = cache_dir.path();
         let used = |key: &str, seconds: u64| {
             let file =
-                OpenOptions::new().write(true).open(shelf.join(key).join(IN_USE)).expect("it is there");
+                OpenOptions::new().write(true).open(cache_dir.join(key).join(IN_USE)).expect("it is there");
             file.set_modified(SystemTime::UNIX_EPOCH + Duration::from_secs(seconds)).expect("it has a time");
         };
-        keep(shelf, "in use").expect("it can be kept");
-        let in_use = Kept::find(shelf, "in use");
+        keep(cache_dir, "in use").expect("it can be kept");
+        let in_use = Kept::find(cache_dir, "in use");
         used("in use", 0);
-        for number in 0..=MOST {
-            keep(shelf, &number.to_string()).expect("it can be kept");
+        for number in 0..=MAX_KEPT {
+            keep(cache_dir, &number.to_string()).expect("it can be kept");
             used(&number.to_string(), 100 - number as u64);
         }
-        keep(shelf, "last").expect("it can be kept");
-        let there = |key: &str| Kept::find(shelf, key).is_some();
+        keep(cache_dir, "last").expect("it can be kept");
+        let there = |key: &str| Kept::find(cache_dir, key).is_some();
         assert!(there("in use") && there("0") && there("last"));
-        assert!(!there(&MOST.to_string()), "the oldest");
+        assert!(!there(&MAX_KEPT.to_string()), "the oldest");
         drop(in_use);
-        keep(shelf, "very last").expect("it can be kept");
-        assert_eq!(std::fs::read_dir(shelf).expect("it is there").count(), MOST);
+        keep(cache_dir, "very last").expect("it can be kept");
+        assert_eq!(std::fs::read_dir(cache_dir).expect("it is there").count(), MAX_KEPT);
     }
 
     #[test]
     fn what_was_begun_by_a_grader_that_is_gone_is_removed() {
-        let shelf = tempfile::tempdir().expect("a temporary folder");
-        let begun = shelf.path().join("begun-1");
+        let cache_dir = tempfile::tempdir().expect("a temporary folder");
+        let begun = cache_dir.path().join("begun-1");
         std::fs::create_dir(&begun).expect("it can be made");
         let lock = File::create(begun.join(IN_USE)).expect("it can be written");
         lock.lock().expect("nobody else has it");
-        keep(shelf.path(), "one").expect("it can be kept");
+        keep(cache_dir.path(), "one").expect("it can be kept");
         assert!(begun.exists(), "its grader is still there");
         drop(lock);
-        keep(shelf.path(), "two").expect("it can be kept");
+        keep(cache_dir.path(), "two").expect("it can be kept");
         assert!(!begun.exists());
     }
 }

@@ -1,4 +1,4 @@
-//! From a hand-in's source to a program.
+//! From a submission's source to a program.
 
 mod cargo;
 mod compile;
@@ -14,5 +14,5 @@ mod shape;
 mod shape;
 
 pub(crate) use compile::compile_empty;
-pub use compile::{HandInProgram, compile, differences, recipe};
+pub use compile::{SubmissionProgram, compile, differences, recipe};
 pub use framework::Framework;

@@ -1,4 +1,4 @@
-//! What a hand-in must not contain, whatever the compiler thinks of it.
+//! What a submission must not contain, whatever the compiler thinks of it.
 //!
 //! `forbid(unsafe_code)` is a lint, and has had holes: naked functions are none of its business (Rust 1.88). So a source
 //! with a word that could have code of it called from outside of `main` is refused before it is compiled, and so is one
@@ -33,10 +33,10 @@ pub(crate) enum Look {
 const LISTED: usize = 20;
 
 const UNSAFE: &str = "unsafe code is forbidden: write it in safe Rust";
-const FOREIGN: &str = "a hand-in has no functions of other languages: take `extern` away";
-const ASSEMBLER: &str = "a hand-in has no assembler: write it in Rust";
-const LINKER: &str = "a hand-in has nothing to tell the linker: take the attribute away";
-const PROGRAM: &str = "the program around a hand-in is fixed: take the attribute away";
+const FOREIGN: &str = "a submission has no functions of other languages: take `extern` away";
+const ASSEMBLER: &str = "a submission has no assembler: write it in Rust";
+const LINKER: &str = "a submission has nothing to tell the linker: take the attribute away";
+const PROGRAM: &str = "the program around a submission is fixed: take the attribute away";
 
 /// Attributes that speak to the linker, or change what a program is.
 const ATTRIBUTES: [(&str, &str); 21] = [
@@ -71,7 +71,7 @@ pub(crate) fn look(source: &str) -> Look {
     // What rustc passes over as a line for a shell may hide the beginning of a comment that it does not see.
     let start = source.strip_prefix('\u{feff}').unwrap_or(source);
     if start.starts_with("#!") && !start.starts_with("#![") {
-        let why = "a hand-in is no script: take the line away";
+        let why = "a submission is no script: take the line away";
         return Look::Through(vec![Refusal { line: 1, what: "#!".to_owned(), why }]);
     }
     let look = match TokenStream::from_str(source) {

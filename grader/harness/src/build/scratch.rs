@@ -1,4 +1,4 @@
-//! Temporary folders of hand-ins, and those that interrupted graders have left behind.
+//! Temporary folders of submissions, and those that interrupted graders have left behind.
 //!
 //! A grader that is killed removes nothing. So each folder holds a file that its grader keeps locked: a folder whose file
 //! can be locked is nobody's any more, whatever process numbers say, which differ from container to container.
@@ -15,7 +15,7 @@ use crate::sandbox::Account;
 use verdict::error::{self, Error};
 
 /// How their names begin.
-const PREFIX: &str = "arty-hand-in-";
+const PREFIX: &str = "arty-submission-";
 
 /// The file that is locked while the folder is in use.
 pub(super) const IN_USE: &str = "in-use";
@@ -112,11 +112,11 @@ mod tests {
             let file = File::create(folder.join(IN_USE)).expect("it can be written");
             (folder, file)
         };
-        let (living, lock) = make("arty-hand-in-1");
+        let (living, lock) = make("arty-submission-1");
         lock.lock().expect("nobody else has it");
-        let (dead, _) = make("arty-hand-in-2");
+        let (dead, _) = make("arty-submission-2");
         let (other, _) = make("something-else");
-        let begun = parent.path().join("arty-hand-in-3");
+        let begun = parent.path().join("arty-submission-3");
         std::fs::create_dir(&begun).expect("it can be made");
         remove_left_behind(parent.path());
         let there = [&living, &dead, &other, &begun].map(|folder| folder.exists());

@@ -1,7 +1,7 @@
 //! What of a linked program decides what runs in it before `main`, and what it gives to and takes from others.
 //!
-//! A hand-in has no means to change that, as far as the compiler keeps its promises. So a program whose shape is not that
-//! of the program of an empty hand-in is not run. The sandbox does not depend on it.
+//! A submission has no means to change that, as far as the compiler keeps its promises. So a program whose shape is not that
+//! of the program of an empty submission is not run. The sandbox does not depend on it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -57,7 +57,7 @@ const ORDINARY: [&str; 12] = [
     ".relro_padding",
 ];
 
-/// Bytes of a program that is looked at: far more than any hand-in needs.
+/// Bytes of a program that is looked at: far more than any submission needs.
 const LARGEST: u64 = 256 << 20;
 
 impl Shape {
@@ -124,7 +124,7 @@ impl Shape {
         Ok(shape)
     }
 
-    /// In what it differs from the program of an empty hand-in, in words; empty if in nothing that matters.
+    /// In what it differs from the program of an empty submission, in words; empty if in nothing that matters.
     pub(crate) fn differences(&self, usual: &Self) -> Vec<String> {
         let mut found = Vec::new();
         for name in self.sections.keys() {

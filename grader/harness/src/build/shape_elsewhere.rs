@@ -17,7 +17,7 @@ impl Shape {
         Ok(Self)
     }
 
-    /// In what it differs from the program of an empty hand-in: in nothing, here.
+    /// In what it differs from the program of an empty submission: in nothing, here.
     pub(crate) fn differences(&self, _: &Self) -> Vec<String> {
         Vec::new()
     }

@@ -10,7 +10,7 @@ use super::Limits;
 use super::process::Profile;
 use verdict::error::Result;
 
-/// What this machine can do to confine a hand-in: nothing.
+/// What this machine can do to confine a submission: nothing.
 #[derive(Clone, Debug, Default)]
 pub struct Machine;
 
@@ -27,7 +27,7 @@ impl Machine {
 
     /// What could be done for a better level.
     pub fn advice(&self) -> Vec<String> {
-        vec!["only Linux has a sandbox for hand-ins: grade files of others there".to_owned()]
+        vec!["only Linux has a sandbox for submissions: grade files of others there".to_owned()]
     }
 }
 
@@ -50,7 +50,7 @@ pub(crate) fn out_of_memory_kills() -> Option<u64> {
     None
 }
 
-/// The user that a hand-in is compiled and run as: that of the grader, here.
+/// The user that a submission is compiled and run as: that of the grader, here.
 #[derive(Debug)]
 pub(crate) struct Account;
 

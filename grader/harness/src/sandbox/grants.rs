@@ -15,7 +15,7 @@ pub struct Grants {
 
 impl Grants {
     /// What rustc needs to compile and link a program: its own files, those of the C compiler that it has link, and
-    /// the folders of the libraries that the hand-in is linked against.
+    /// the folders of the libraries that the submission is linked against.
     pub(crate) fn of_toolchain(rustc: &Path, sysroot: &Path, libraries: &[&Path]) -> Self {
         let mut grants = Self::default();
         grants.execute(rustc);

@@ -30,7 +30,7 @@ pub(crate) use clock::processor_time;
 pub(crate) use loading::confirmed;
 pub(crate) use memory::out_of_memory_kills;
 
-/// What this machine can do to confine a hand-in, as it was found by trying.
+/// What this machine can do to confine a submission, as it was found by trying.
 #[derive(Clone, Debug)]
 pub struct Machine {
     landlock: u32,
@@ -112,7 +112,7 @@ impl Confinement {
         if let Some(switch) = self.user {
             switch_user(switch)?;
         }
-        // After the change of user, which would undo it. Should the grader be killed, its hand-ins end with it.
+        // After the change of user, which would undo it. Should the grader be killed, its submissions end with it.
         set_parent_process_death_signal(Some(Signal::KILL))?;
         rustix::thread::set_no_new_privs(true)?;
         if let Some(ruleset) = &self.landlock {

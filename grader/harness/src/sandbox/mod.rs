@@ -1,10 +1,10 @@
 //! Keeping what a student wrote from everything but its own points.
 //!
-//! Two things run on behalf of a hand-in, and each gets a sandbox of its own: **rustc**, since `include_str!` and its
+//! Two things run on behalf of a submission, and each gets a sandbox of its own: **rustc**, since `include_str!` and its
 //! kin read files at compile time, and the **host**, which runs what was compiled. The compiler may read the
 //! toolchain, the framework and its own folder, write there, and start the linker. The host may load its program, and
 //! nothing else: it is locked in between fork and exec, and tightens that itself ([`host::confine`]). Both get limits of
-//! time and memory, an empty environment, and a user id that no other hand-in has when the grader runs as root, and are
+//! time and memory, an empty environment, and a user id that no other submission has when the grader runs as root, and are
 //! ended together with everything that they have started.
 //!
 //! What of it a machine really does is tried out, never assumed, and every report has it as a [`Level`]. What is defended

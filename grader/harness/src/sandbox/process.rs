@@ -26,7 +26,7 @@ pub(crate) enum Profile<'a> {
         /// Who runs them, and owns the folder.
         account: &'a Account,
     },
-    /// A hand-in on so many threads, which may load its program and do nothing else with files or other processes.
+    /// A submission on so many threads, which may load its program and do nothing else with files or other processes.
     Host {
         /// The program.
         program: &'a Path,

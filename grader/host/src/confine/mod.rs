@@ -1,7 +1,7 @@
-//! What keeps a hand-in from touching anything but its numbers.
+//! What keeps a submission from touching anything but its numbers.
 //!
 //! A host is locked in twice. The grader does it between fork and exec, so that whatever runs in the process is confined
-//! from its first instruction, even if something of a hand-in should run before `main`: Landlock grants the program, its
+//! from its first instruction, even if something of a submission should run before `main`: Landlock grants the program, its
 //! loader and its libraries, seccomp what loading takes ([`seccomp::loading_filters`]). Then the host tightens that itself,
 //! once it has taken over its pipe: Landlock takes away all files, seccomp all system calls but those that computing
 //! needs. Both hold for all threads that are started afterwards, and nobody can lift them again.

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use arty::integrator::Settings;
 use arty::scene::{Scene, SceneDescription};
-use harness::build::HandInProgram;
+use harness::build::SubmissionProgram;
 use harness::host_process::HostProcess;
 use harness::workspace::Workspace;
 use host::protocol::{AnomalousSample, Switches};
@@ -37,7 +37,7 @@ pub struct SceneWithReference {
 #[derive(Clone)]
 pub struct GradeContext<'a> {
     /// The submission.
-    pub program: &'a HandInProgram,
+    pub program: &'a SubmissionProgram,
     /// The solution; none where the checkout does not have it.
     pub oracle: Option<&'a Oracle>,
     /// The scenes by name.

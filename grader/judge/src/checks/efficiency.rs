@@ -21,7 +21,7 @@ use crate::statistics::variance::VarianceRatio;
 /// How much noisier the other technique has to be for a scene to tell.
 const TELLING: f64 = 20.0;
 
-/// How much noisier than the solution a hand-in has to be, at least, to lack a technique.
+/// How much noisier than the solution a submission has to be, at least, to lack a technique.
 const LACKING: f64 = 3.0;
 
 /// The level at which it has to be that.
@@ -112,11 +112,11 @@ impl Check for Efficiency {
 fn tells_apart(scene: &SceneWithReference, spec: &CheckSpec) -> Result<(), WhyNot> {
     let moments = |technique| moments(scene, spec, technique).map_err(|_| WhyNot::UnknownNoise);
     let own = moments(spec.technique)?;
-    let mut most = 0.0f64;
+    let mut max = 0.0f64;
     for &technique in rivals(spec.technique) {
-        most = most.max(total(&moments(technique)?) / total(&own));
+        max = max.max(total(&moments(technique)?) / total(&own));
     }
-    if most < TELLING { Err(WhyNot::AlikeNoise { at_most: most, needed: TELLING }) } else { Ok(()) }
+    if max < TELLING { Err(WhyNot::AlikeNoise { at_most: max, needed: TELLING }) } else { Ok(()) }
 }
 
 /// The variance of one sample over the whole image, relative to m² + m̄².

@@ -2,7 +2,7 @@
 //!
 //! A red, a green and a blue point light over a diffuse floor: each channel shows one light, and its mean is ρ/π · I cos θ
 //! / d², however lights are picked, if that probability is the one that is divided by. A pick like `random * (n − 0.01)`
-//! is off by less than a percent, which would take millions of paths to see. So the hand-in's own random numbers are
+//! is off by less than a percent, which would take millions of paths to see. So the submission's own random numbers are
 //! stratified: then each light's share is exact, and a few thousand paths tell.
 
 use std::f64::consts::PI;

@@ -21,7 +21,7 @@ pub(super) struct Picture<'a> {
     pub(super) scenes: &'a [&'a SceneDescription],
     /// What it should be.
     pub(super) expected: &'a Expected,
-    /// What the hand-in's path tracer is made with.
+    /// What the submission's path tracer is made with.
     pub(super) settings: Settings,
     /// Which ways of finding light are closed.
     pub(super) switches: Switches,
@@ -55,7 +55,7 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// Judges what the hand-in makes of it.
+    /// Judges what the submission makes of it.
     pub(super) fn judge(
         &self,
         context: &GradeContext<'_>,

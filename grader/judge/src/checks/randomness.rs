@@ -1,6 +1,6 @@
 //! **randomness**: is each pixel and each batch a thing of its own?
 //!
-//! Every standard error in this grader rests on that. A hand-in has to draw its random numbers from the sampler that
+//! Every standard error in this grader rests on that. A submission has to draw its random numbers from the sampler that
 //! it is given: then the same seed gives the same image, whatever was rendered before; another seed gives another; and
 //! no two pixels share anything.
 

@@ -86,8 +86,8 @@ impl Check for RayBudget {
 
 /// What is beyond the budget, if anything is.
 fn too_many(paths: &[ProbedPath], bounces: u32) -> Option<TooManyRays> {
-    let most = |count: fn(&ProbedPath) -> u32| paths.iter().map(count).max().unwrap_or(0);
-    let (shadow_rays, rays) = (most(|path| path.shadow_rays), most(|path| path.rays + path.shadow_rays));
+    let max = |count: fn(&ProbedPath) -> u32| paths.iter().map(count).max().unwrap_or(0);
+    let (shadow_rays, rays) = (max(|path| path.shadow_rays), max(|path| path.rays + path.shadow_rays));
     let allowed = 1 + 3 * bounces;
     (shadow_rays > bounces || rays > allowed).then_some(TooManyRays { bounces, shadow_rays, rays, allowed })
 }

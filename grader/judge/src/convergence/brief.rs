@@ -3,7 +3,7 @@
 use arty::integrator::Technique;
 
 use super::measure::{Contestant, Options, measure};
-use harness::build::HandInProgram;
+use harness::build::SubmissionProgram;
 use harness::workspace::Workspace;
 use verdict::convergence::{Convergence, LeftOut, Role};
 use verdict::error::Result;
@@ -14,21 +14,21 @@ const SCENES: [&str; 2] = ["cornell_box", "veach_mis"];
 /// Processor time of all renderings, in seconds.
 const SECONDS: f64 = 1.8;
 
-/// Measures `mis` of a hand-in beside that of the solution and plain BSDF sampling, in about two seconds. In a checkout
-/// without the solution the hand-in's own BSDF sampling is all that there is to compare with.
+/// Measures `mis` of a submission beside that of the solution and plain BSDF sampling, in about two seconds. In a checkout
+/// without the solution the submission's own BSDF sampling is all that there is to compare with.
 ///
 /// # Errors
-/// What is not the hand-in's doing.
+/// What is not the submission's doing.
 pub fn brief(
     workspace: &Workspace,
-    hand_in: &HandInProgram,
-    solution: Option<&HandInProgram>,
+    submission: &SubmissionProgram,
+    solution: Option<&SubmissionProgram>,
     seed: u64,
 ) -> Result<Convergence> {
     let contestant = |name: &str, role, program| Contestant { name: name.to_owned(), role, program };
-    let mut contestants = vec![contestant("hand-in", Role::Submission, hand_in)];
+    let mut contestants = vec![contestant("submission", Role::Submission, submission)];
     contestants.extend(solution.map(|program| contestant("solution", Role::Solution, program)));
-    contestants.push(contestant("BSDF sampling", Role::Baseline, solution.unwrap_or(hand_in)));
+    contestants.push(contestant("BSDF sampling", Role::Baseline, solution.unwrap_or(submission)));
     let options = Options {
         scenes: SCENES.map(str::to_owned).to_vec(),
         techniques: vec![Technique::Mis],

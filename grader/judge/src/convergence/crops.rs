@@ -26,7 +26,7 @@ const STEP: usize = 8;
 /// does not answer, and a scene without a picture for looking at, is left out.
 ///
 /// # Errors
-/// What is not a hand-in's doing.
+/// What is not a submission's doing.
 pub fn crops(
     workspace: &Workspace,
     contestants: &[Contestant<'_>],

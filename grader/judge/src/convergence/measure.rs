@@ -6,12 +6,12 @@ use arty::integrator::{Settings, Technique};
 use arty::sampler::batch_seed;
 use arty::scene::{Scene, SceneDescription};
 
+use super::curve_run::{CurveRun, ROUNDS};
 use super::estimate::{Estimated, estimate, relative_bias_squared};
-use super::racer::{ROUNDS, Racer};
 use super::summary::{efficiency, rounded, seconds_to, slope};
 use crate::image_error::{Truth, relative_weight};
 use crate::reference::{self, ReferenceView};
-use harness::build::HandInProgram;
+use harness::build::SubmissionProgram;
 use harness::host_process::HostProcess;
 use harness::job::apart;
 use harness::workspace::Workspace;
@@ -24,7 +24,7 @@ use verdict::rubric::{EmissionOnHit, View};
 pub struct Options {
     /// Scenes by name.
     pub scenes: Vec<String>,
-    /// Techniques of the hand-ins.
+    /// Techniques of the submissions.
     pub techniques: Vec<Technique>,
     /// Processor time for all of it, in seconds.
     pub seconds: f64,
@@ -45,13 +45,13 @@ pub struct Contestant<'a> {
     /// Whose it is; [`Role::Baseline`] renders with plain BSDF sampling only.
     pub role: Role,
     /// The program.
-    pub program: &'a HandInProgram,
+    pub program: &'a SubmissionProgram,
 }
 
 /// Measures all programs in all scenes. `on_round` is told how much of the work is done, in [0, 1].
 ///
 /// # Errors
-/// What is not a hand-in's doing. Of a hand-in that crashes or takes too long there is no curve, and the reason why.
+/// What is not a submission's doing. Of a submission that crashes or takes too long there is no curve, and the reason why.
 pub fn measure(
     workspace: &Workspace,
     contestants: &[Contestant<'_>],
@@ -124,7 +124,7 @@ fn race(
         let loaded = apart(process.load(&scene.description))?;
         processes.push((process, loaded));
     }
-    let mut racers = Vec::new();
+    let mut curve_runs = Vec::new();
     for (index, contestant) in contestants.iter().enumerate() {
         let baseline = contestant.role == Role::Baseline;
         if baseline && scene.area_lights == 0 {
@@ -138,9 +138,9 @@ fn race(
         let techniques = if baseline { &[Technique::Bsdf] } else { options.techniques.as_slice() };
         for &technique in techniques {
             let settings = Settings { technique, max_bounces: scene.max_bounces };
-            let seed = batch_seed(options.seed, racers.len() as u64);
+            let seed = batch_seed(options.seed, curve_runs.len() as u64);
             let fault = processes[index].1.as_ref().err().cloned();
-            racers.push(Racer {
+            curve_runs.push(CurveRun {
                 contestant: index,
                 settings,
                 seed,
@@ -150,17 +150,17 @@ fn race(
             });
         }
     }
-    let share = seconds / racers.len().max(1) as f64;
-    for racer in &mut racers {
-        racer.plan(&mut processes[racer.contestant].0, share, options.lengths)?;
+    let share = seconds / curve_runs.len().max(1) as f64;
+    for curve_run in &mut curve_runs {
+        curve_run.plan(&mut processes[curve_run.contestant].0, share, options.lengths)?;
     }
     for round in 0..ROUNDS {
         for level in 0..options.lengths as usize {
             // Forwards and backwards in turn, so that a machine that slows down favours nobody.
-            for place in 0..racers.len() {
-                let index = if round % 2 == 0 { place } else { racers.len() - 1 - place };
-                let racer = &mut racers[index];
-                racer.render(&mut processes[racer.contestant].0, level, round)?;
+            for place in 0..curve_runs.len() {
+                let index = if round % 2 == 0 { place } else { curve_runs.len() - 1 - place };
+                let curve_run = &mut curve_runs[index];
+                curve_run.render(&mut processes[curve_run.contestant].0, level, round)?;
             }
             on_round(
                 (round * options.lengths as usize + level + 1) as f64
@@ -169,7 +169,7 @@ fn race(
         }
     }
     drop(processes);
-    evaluate(scene, contestants, options, racers, into);
+    evaluate(scene, contestants, options, curve_runs, into);
     Ok(())
 }
 
@@ -183,22 +183,22 @@ fn evaluate(
     scene: &ScenePlan,
     contestants: &[Contestant<'_>],
     options: &Options,
-    racers: Vec<Racer>,
+    curve_runs: Vec<CurveRun>,
     into: &mut Convergence,
 ) {
     let truth = scene.truth();
     let mut measured = Vec::new();
-    for mut racer in racers {
-        let Contestant { name, role, .. } = &contestants[racer.contestant];
-        if let Some(fault) = &racer.fault {
+    for mut curve_run in curve_runs {
+        let Contestant { name, role, .. } = &contestants[curve_run.contestant];
+        if let Some(fault) = &curve_run.fault {
             into.left_out.push(LeftOut {
-                program: format!("{name}, {}", racer.settings.technique),
+                program: format!("{name}, {}", curve_run.settings.technique),
                 scene: scene.name.clone(),
                 why: fault.to_string(),
             });
             continue;
         }
-        let renders = racer.finish();
+        let renders = curve_run.finish();
         let levels: Vec<Estimated> =
             renders.iter().filter_map(|renders| estimate(renders, truth, options.seed)).collect();
         let bias = relative_bias_squared(&renders, truth, options.seed);
@@ -209,14 +209,14 @@ fn evaluate(
                 _ => name.clone(),
             },
             role: *role,
-            technique: racer.settings.technique,
+            technique: curve_run.settings.technique,
             points: levels.iter().map(|level| level.point.clone()).collect(),
             slope: slope(&levels),
             efficiency: None,
             seconds_to_target: None,
             relative_bias_squared: bias.map(|(estimate, _)| estimate),
             floor: bias.is_some_and(|(estimate, deviation)| estimate.value > 4.0 * deviation),
-            non_finite: racer.non_finite,
+            non_finite: curve_run.non_finite,
         };
         measured.push(Measured { curve, levels });
     }

@@ -12,9 +12,9 @@
 
 mod brief;
 mod crops;
+mod curve_run;
 mod estimate;
 mod measure;
-mod racer;
 mod summary;
 
 pub use brief::brief;

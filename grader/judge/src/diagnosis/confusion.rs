@@ -62,7 +62,7 @@ impl Confusion {
              the same grade.\n\n\
              - right cause first: {first} of {wrong} ({:.1} %)\n\
              - right cause among the first three: {named} of {wrong} ({:.1} %)\n\
-             - a cause named for a correct hand-in: {blamed} of {right}\n",
+             - a cause named for a correct submission: {blamed} of {right}\n",
             percent(first),
             percent(named),
         );

@@ -31,7 +31,7 @@ use verdict::error::{Error, Result};
 use verdict::report::{self, Diagnosis, Report};
 
 /// How many causes are named at most.
-pub const MOST: usize = 3;
+pub const MAX_CAUSES: usize = 3;
 
 /// Name of the cause that is not known.
 pub const UNKNOWN: &str = "unknown";
@@ -114,7 +114,7 @@ impl Catalogue {
         self.causes.iter().find(|cause| cause.variants.iter().any(|other| other == variant))
     }
 
-    /// At most [`MOST`] likely causes, the likeliest first. None for a hand-in whose checks all pass.
+    /// At most [`MAX_CAUSES`] likely causes, the likeliest first. None for a submission whose checks all pass.
     pub fn diagnose(&self, report: &Report, source: &str) -> Vec<Diagnosis> {
         let wrong = report.checks.iter().any(CheckResult::is_lacking);
         if !wrong && report.submission.build_failure.is_none() {
@@ -137,7 +137,7 @@ impl Catalogue {
                 seen: None,
             }];
         }
-        found.truncate(MOST);
+        found.truncate(MAX_CAUSES);
         found.into_iter().map(|found| found.diagnosis).collect()
     }
 
@@ -159,8 +159,11 @@ impl Catalogue {
         if vector.is_right() {
             return Vec::new();
         }
-        let names: Vec<&str> =
-            rank::rank(self, vector).iter().map(|candidate| candidate.cause.id.as_str()).take(MOST).collect();
+        let names: Vec<&str> = rank::rank(self, vector)
+            .iter()
+            .map(|candidate| candidate.cause.id.as_str())
+            .take(MAX_CAUSES)
+            .collect();
         if names.is_empty() { vec![UNKNOWN] } else { names }
     }
 }

@@ -6,7 +6,7 @@ use arty::integrator::Technique;
 
 use super::distance::Distance;
 use super::observation::{State, Vector};
-use super::{Catalogue, Cause, MOST};
+use super::{Catalogue, Cause, MAX_CAUSES};
 
 /// A cause whose best fit is less likely than this is none.
 const REJECTED: f64 = 1e-3;
@@ -17,7 +17,7 @@ const REJECTED_ALONE: f64 = 0.05;
 /// The share of what is wrong that a signature has to say something about.
 const COVERED: f64 = 0.4;
 
-/// Numbers of one hand-in go astray together, so that a difference of distances says this many times less than it
+/// Numbers of one submission go astray together, so that a difference of distances says this many times less than it
 /// would of independent ones.
 const TOGETHER: f64 = 3.0;
 
@@ -105,7 +105,7 @@ fn explains_something(vector: &Vector, signature: &Vector) -> bool {
 /// The first few, unless so many fit alike that naming these few would be arbitrary.
 fn worth_naming(ranking: Vec<Candidate<'_>>) -> Vec<Candidate<'_>> {
     let worth = |candidate: &Candidate<'_>| candidate.fits() && candidate.confidence >= NOT_WORTH_NAMING;
-    let named: Vec<Candidate<'_>> = ranking.into_iter().filter(worth).take(MOST).collect();
+    let named: Vec<Candidate<'_>> = ranking.into_iter().filter(worth).take(MAX_CAUSES).collect();
     let together: f64 = named.iter().map(|candidate| candidate.confidence).sum();
     if together >= TOGETHER_LIKELY { named } else { Vec::new() }
 }
@@ -118,13 +118,13 @@ pub(super) fn something_fits(catalogue: &Catalogue, vector: &Vector) -> bool {
 /// The first of each part, then the second ones, and so on; each cause once.
 fn merge(parts: Vec<Vec<Candidate<'_>>>) -> Vec<Candidate<'_>> {
     let mut merged: Vec<Candidate<'_>> = Vec::new();
-    for place in 0..MOST {
+    for place in 0..MAX_CAUSES {
         for candidate in parts.iter().filter_map(|part| part.get(place)) {
             if merged.iter().all(|other| other.cause.id != candidate.cause.id) {
                 merged.push(candidate.clone());
             }
         }
     }
-    merged.truncate(MOST);
+    merged.truncate(MAX_CAUSES);
     merged
 }

@@ -1,4 +1,4 @@
-//! Grading one hand-in, from its file to its report.
+//! Grading one submission, from its file to its report.
 
 mod inputs;
 mod points;
@@ -14,7 +14,7 @@ use crate::diagnosis::Catalogue;
 use crate::plan;
 use crate::reference::Oracle;
 use crate::statistics::sequential::{LOOKS, SCREENING_LEVEL};
-use harness::build::{Framework, HandInProgram, compile};
+use harness::build::{Framework, SubmissionProgram, compile};
 use harness::host_process::HostProcess;
 use harness::sandbox::{Limits, Machine};
 use harness::scan::scan;
@@ -34,25 +34,25 @@ use select::{Selected, select};
 
 pub use inputs::load_scene;
 
-/// What a grade is told beside the hand-in.
+/// What a grade is told beside the submission.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// The assignment's name.
     pub assignment: String,
     /// The seed of all random numbers.
     pub seed: u64,
-    /// Threads for the hand-in.
+    /// Threads for the submission.
     pub threads: usize,
     /// Checks to run: by the name of the check, its kind, its scene, its technique or its task. All if empty.
     pub only: Vec<String>,
-    /// What the hand-in may use up.
+    /// What the submission may use up.
     pub limits: Limits,
 }
 
-/// Grades a hand-in. `on_check` is told of each check as it ends.
+/// Grades a submission. `on_check` is told of each check as it ends.
 ///
 /// # Errors
-/// What is not the hand-in's doing.
+/// What is not the submission's doing.
 pub fn grade(
     workspace: &Workspace,
     submission: &Submission,
@@ -62,7 +62,7 @@ pub fn grade(
     Grader::new(workspace, options)?.grade(submission, on_check)
 }
 
-/// All that is the same for every hand-in of an assignment, made ready once. It can grade several at a time.
+/// All that is the same for every submission of an assignment, made ready once. It can grade several at a time.
 pub struct Grader {
     options: Options,
     rubric: Rubric,
@@ -71,7 +71,7 @@ pub struct Grader {
     framework_time: f64,
     oracle: Option<Oracle>,
     workspace: Workspace,
-    /// What means nothing in its scenes, whatever the hand-in.
+    /// What means nothing in its scenes, whatever the submission.
     skipped: Vec<SkippedCheck>,
     provenance: Provenance,
     /// The mistakes that are known.
@@ -94,7 +94,7 @@ impl Grader {
             || load_scenes(workspace, &selected),
             || {
                 let framework = Framework::build(workspace)?;
-                trial::require_that_hand_ins_work(&framework, &options.limits)?;
+                trial::require_that_submissions_work(&framework, &options.limits)?;
                 Ok::<_, verdict::error::Error>(framework)
             },
         );
@@ -131,7 +131,7 @@ impl Grader {
         &self.options
     }
 
-    /// What hand-ins are linked against.
+    /// What submissions are linked against.
     pub fn framework(&self) -> &Framework {
         &self.framework
     }
@@ -156,10 +156,10 @@ impl Grader {
         &self.provenance
     }
 
-    /// Grades a hand-in. `on_check` is told of each check as it ends.
+    /// Grades a submission. `on_check` is told of each check as it ends.
     ///
     /// # Errors
-    /// What is not the hand-in's doing.
+    /// What is not the submission's doing.
     pub fn grade(
         &self,
         submission: &Submission,
@@ -171,19 +171,19 @@ impl Grader {
     /// The same, and the program that was graded, unless it does not compile.
     ///
     /// # Errors
-    /// What is not the hand-in's doing.
+    /// What is not the submission's doing.
     pub fn grade_and_keep(
         &self,
         submission: &Submission,
         on_check: impl FnMut(&CheckResult) + Send,
-    ) -> Result<(Report, Option<HandInProgram>)> {
+    ) -> Result<(Report, Option<SubmissionProgram>)> {
         self.judge(submission, None, on_check)
     }
 
-    /// The report on a hand-in in which there is nothing to grade: no points, and why.
+    /// The report on a submission in which there is nothing to grade: no points, and why.
     ///
     /// # Errors
-    /// None that a hand-in could cause.
+    /// None that a submission could cause.
     pub fn refuse(&self, path: &Path, refusal: &IntakeFinding) -> Result<Report> {
         let nothing = Submission { path: path.to_owned(), source: String::new() };
         Ok(self.judge(&nothing, Some(refusal), |_| {})?.0)
@@ -194,7 +194,7 @@ impl Grader {
         submission: &Submission,
         refusal: Option<&IntakeFinding>,
         on_check: impl FnMut(&CheckResult) + Send,
-    ) -> Result<(Report, Option<HandInProgram>)> {
+    ) -> Result<(Report, Option<SubmissionProgram>)> {
         let start = Instant::now();
         let selected = select(&self.rubric, &self.options.only)?;
         let built = match refusal {
@@ -254,14 +254,14 @@ impl Grader {
     /// Runs the checks that mean something for a submission.
     fn run(
         &self,
-        program: &HandInProgram,
+        program: &SubmissionProgram,
         selected: &Selected<'_>,
         ran: &mut Ran,
         on_check: impl FnMut(&CheckResult) + Send,
     ) -> Result<()> {
         let host = HostProcess::start(program, self.options.threads)?.layers();
         ran.sandbox = Sandbox::new(program.layers, host, std::mem::take(&mut ran.sandbox.findings));
-        trial::require(&ran.sandbox, self.options.limits.least)?;
+        trial::require(&ran.sandbox, self.options.limits.min_level)?;
         let context = GradeContext {
             program,
             oracle: self.oracle.as_ref(),

@@ -20,7 +20,7 @@ const MOST_AT_A_TIME: usize = 4;
 /// skipped there. Which tasks those are depends on verdicts alone, not on how many checks run at a time.
 ///
 /// # Errors
-/// What is not the hand-in's doing.
+/// What is not the submission's doing.
 pub(super) fn run(
     context: &GradeContext<'_>,
     selected: &Selected<'_>,
@@ -78,7 +78,7 @@ fn side_by_side<T: Sync, R: Send>(
     }
 }
 
-/// How long a hand-in is waited for: one scene may be too much for it although it is right in others, but nobody waits
+/// How long a submission is waited for: one scene may be too much for it although it is right in others, but nobody waits
 /// for one that never ends.
 #[derive(Default)]
 struct Patience {
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn nobody_waits_for_a_hand_in_that_never_ends() {
+    fn nobody_waits_for_a_submission_that_never_ends() {
         let check = |reason| CheckResult { reason, ..sample::report("").checks[0].clone() };
         let after = |reasons: &[Reason]| {
             let patience = Patience::default();

@@ -11,7 +11,7 @@ use host::protocol::{RenderJob, Switches};
 
 use super::{Moments, Reference, ReferenceView, SIZE};
 use crate::statistics::bias::Expected;
-use harness::build::HandInProgram;
+use harness::build::SubmissionProgram;
 use harness::host_process::HostProcess;
 use verdict::error::{Error, Result};
 use verdict::rubric::{EmissionOnHit, View};
@@ -39,7 +39,7 @@ pub type Wanted = BTreeMap<View, Vec<Technique>>;
 /// Renders the reference of one scene with the solution: means by multiple importance sampling, which sees
 /// everything that any technique sees. Where lights that are hit emit nothing, by next event estimation.
 pub fn make(
-    solution: &HandInProgram,
+    solution: &SubmissionProgram,
     description: &SceneDescription,
     wanted: &Wanted,
     effort: Effort,
@@ -80,7 +80,7 @@ pub fn make(
 
 /// What a correct estimator gives in a scene without a reference: as the solution renders it now, `samples` times.
 pub(super) fn live(
-    solution: &HandInProgram,
+    solution: &SubmissionProgram,
     description: &SceneDescription,
     settings: Settings,
     samples: u32,
@@ -104,7 +104,7 @@ const PICTURE_BATCH: u64 = 16;
 
 /// Renders a larger picture of a scene, to be looked at.
 pub fn picture(
-    program: &HandInProgram,
+    program: &SubmissionProgram,
     description: &SceneDescription,
     settings: Settings,
     (width, height): (u32, u32),
@@ -129,7 +129,7 @@ struct Renderer {
 }
 
 impl Renderer {
-    fn start(program: &HandInProgram, description: &SceneDescription, threads: usize) -> Result<Self> {
+    fn start(program: &SubmissionProgram, description: &SceneDescription, threads: usize) -> Result<Self> {
         let mut process = HostProcess::start(program, threads)?;
         let scene = process.load(description).map_err(|error| error.of_trusted("the solution"))?;
         Ok(Self { process, scene, switches: Switches::default() })

@@ -8,7 +8,7 @@ use arty::scene::SceneDescription;
 
 use super::make::live;
 use crate::statistics::bias::Expected;
-use harness::build::{Framework, HandInProgram, compile, recipe};
+use harness::build::{Framework, SubmissionProgram, compile, recipe};
 use harness::host_process::HostProcess;
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
@@ -25,7 +25,7 @@ pub struct Oracle {
     /// Over the framework, the solution's source, how it is compiled, and how its samples become an answer.
     hash: blake3::Hash,
     folder: PathBuf,
-    program: Mutex<Option<Arc<HandInProgram>>>,
+    program: Mutex<Option<Arc<SubmissionProgram>>>,
 }
 
 impl Oracle {
@@ -57,7 +57,7 @@ impl Oracle {
     ///
     /// # Errors
     /// If the checkout does not have it, or it does not compile.
-    pub fn required(workspace: &Workspace) -> Result<Arc<HandInProgram>> {
+    pub fn required(workspace: &Workspace) -> Result<Arc<SubmissionProgram>> {
         Self::of(workspace, &Framework::build(workspace)?)?
             .ok_or_else(|| {
                 Error::file(&workspace.solution_file(), "this checkout does not have the solution")
@@ -70,17 +70,17 @@ impl Oracle {
         self.hash
     }
 
-    /// The solution as a program, built like any hand-in, now or earlier.
+    /// The solution as a program, built like any submission, now or earlier.
     ///
     /// # Errors
     /// If it does not compile.
-    pub fn program(&self) -> Result<Arc<HandInProgram>> {
+    pub fn program(&self) -> Result<Arc<SubmissionProgram>> {
         let mut program = self.program.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(program) = &*program {
             return Ok(Arc::clone(program));
         }
         let (limits, file) = (Limits::default(), self.folder.join(format!("{}.program", self.hash)));
-        let earlier = read(&file).and_then(|executable| HandInProgram::again(&executable, &limits).ok());
+        let earlier = read(&file).and_then(|executable| SubmissionProgram::again(&executable, &limits).ok());
         // It may have come here with a cache, from a machine with another C library.
         let compiled = match earlier
             .filter(|program| HostProcess::start(program, 1).is_ok_and(|process| process.fault().is_none()))
@@ -124,7 +124,7 @@ impl Oracle {
     }
 
     /// Keeps the program, in place of earlier ones.
-    fn keep(&self, file: &Path, program: &HandInProgram) -> Result<()> {
+    fn keep(&self, file: &Path, program: &SubmissionProgram) -> Result<()> {
         let trouble = |error| Error::file(&self.folder, error);
         let executable = std::fs::read(&program.executable).map_err(trouble)?;
         for entry in std::fs::read_dir(&self.folder).into_iter().flatten() {

@@ -9,7 +9,7 @@ mod vertices;
 
 use arty::integrator::Settings;
 use arty::scene::SceneDescription;
-use harness::build::HandInProgram;
+use harness::build::SubmissionProgram;
 use harness::host_process::HostProcess;
 use host::protocol::{Call, ReplayJob, Switches};
 use verdict::replay::{Named, Path, ReplayTarget, Step};
@@ -25,7 +25,7 @@ pub use vertices::vertices;
 /// # Errors
 /// If the program gives no answer, or something else is wrong.
 pub fn follow(
-    program: &HandInProgram,
+    program: &SubmissionProgram,
     target: &ReplayTarget,
     description: &SceneDescription,
 ) -> Result<Path, JobError> {

@@ -1,4 +1,4 @@
-//! How often are correct hand-ins failed, and how small an error is found?
+//! How often are correct submissions failed, and how small an error is found?
 //!
 //! Whole grades are dear: a thousand of them take an hour. So the statistics are calibrated alone as well: for each
 //! correct variant and each check by means, thousands of single samples of each pixel are [recorded](pool::Pool), heavy

@@ -15,7 +15,7 @@ pub(super) const MADE_FOR: f64 = 0.02;
 
 /// For each test the seconds in which it finds each of the variants that it does find, ascending.
 ///
-/// Nobody knows beforehand how wrong a hand-in is: a fixed number of samples is at least that which finds an error of
+/// Nobody knows beforehand how wrong a submission is: a fixed number of samples is at least that which finds an error of
 /// [`MADE_FOR`] in the samples of the solution.
 pub(super) fn times(lines: &[&Line], wrong: &[String], test: Test) -> Vec<f64> {
     let fixed = |check: &str| {

@@ -7,7 +7,7 @@ use arty::sampler::{Sampler, batch_seed};
 use arty::scene::SceneDescription;
 use host::protocol::{RenderJob, Switches};
 
-use harness::build::HandInProgram;
+use harness::build::SubmissionProgram;
 use harness::host_process::{Fault, HostProcess};
 use judge::reference::SIZE;
 use judge::statistics::sequential::Demand;
@@ -28,7 +28,7 @@ impl Pool {
     /// # Errors
     /// The outer error is the harness's, the inner one the program's.
     pub fn record(
-        program: &HandInProgram,
+        program: &SubmissionProgram,
         scene: &SceneDescription,
         settings: Settings,
         switches: Switches,

@@ -19,7 +19,7 @@ pub fn table(
     let of_right: Vec<&Line> = lines.iter().copied().filter(|line| !wrong.contains(&line.variant)).collect();
     let ours: Vec<&Line> = of_right.iter().copied().filter(|line| line.test == Test::Sequential).collect();
     let mut text = String::from(
-        "# How often correct hand-ins fail, and how small an error is found\n\nMade by `cargo lab calibrate`; do \
+        "# How often correct submissions fail, and how small an error is found\n\nMade by `cargo lab calibrate`; do \
          not edit. No failure in n grades shows a rate below 3/n (at 95 %).\n",
     );
     false_alarms(&mut text, &ours, checks);

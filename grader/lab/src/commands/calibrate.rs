@@ -12,7 +12,7 @@ use indicatif::ProgressBar;
 use crate::calibration::{Line, Pool, Quiet, Results, Test, Trial, svg, table};
 use crate::mutants::{Kind, Ledger, Record, Variant, hash_of_inputs, variants};
 use harness::assignment::Assignment;
-use harness::build::{Framework, HandInProgram, compile};
+use harness::build::{Framework, SubmissionProgram, compile};
 use harness::host_process::Fault;
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
@@ -22,7 +22,7 @@ use judge::statistics::sequential::SCREENING_LEVEL;
 use verdict::error::{Error, Result};
 use verdict::rubric::{CheckKind, CheckSpec, Hits, Rubric};
 
-/// Measure how often correct hand-ins fail, and how small an error is found (for staff).
+/// Measure how often correct submissions fail, and how small an error is found (for staff).
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// Grades to simulate, from recorded samples of the correct variants in turn
@@ -189,7 +189,7 @@ impl Calibration<'_> {
         let bar = ProgressBar::new(checks().filter(|(_, spec)| by_means(spec)).count() as u64)
             .with_message("wrong variants");
         let solution = self.compile(solution)?;
-        let programs: Vec<HandInProgram> =
+        let programs: Vec<SubmissionProgram> =
             wrong.iter().map(|variant| self.compile(variant)).collect::<Result<_>>()?;
         for (task, spec) in checks().filter(|(_, spec)| by_means(spec)) {
             // What is right is recorded once for all that is wrong, and not before it is needed.
@@ -212,7 +212,7 @@ impl Calibration<'_> {
         Ok(())
     }
 
-    fn compile(&self, variant: &Variant) -> Result<HandInProgram> {
+    fn compile(&self, variant: &Variant) -> Result<SubmissionProgram> {
         compile(&self.framework, &variant.source, &Limits::default())?
             .map_err(|failure| Error::Harness(format!("{}: {}", variant.id, failure.messages)))
     }
@@ -225,7 +225,7 @@ impl Calibration<'_> {
         spec: &CheckSpec,
         wanted: &[(Test, f64, u64)],
         record: impl FnOnce(&Recorder<'_>) -> Result<Option<Pool>>,
-        truth: Option<(&HandInProgram, &OnceCell<(Pool, Quiet)>)>,
+        truth: Option<(&SubmissionProgram, &OnceCell<(Pool, Quiet)>)>,
     ) -> Result<()> {
         let (key, mut wanted) = (self.key(variant), wanted.to_vec());
         wanted.retain(|&(test, bias, count)| {
@@ -320,7 +320,7 @@ struct Recorder<'a> {
 
 impl Recorder<'_> {
     /// Of a program that may do anything.
-    fn record(&self, program: &HandInProgram) -> Result<std::result::Result<Pool, Fault>> {
+    fn record(&self, program: &SubmissionProgram) -> Result<std::result::Result<Pool, Fault>> {
         let Self { judged, spec, count, threads } = *self;
         let settings = Settings { technique: spec.technique, max_bounces: spec.max_bounces };
         let switches = Switches { emission_on_hit: spec.hits == Hits::On };
@@ -328,7 +328,7 @@ impl Recorder<'_> {
     }
 
     /// Of one that must not fail.
-    fn correct(&self, program: &HandInProgram) -> Result<Pool> {
+    fn correct(&self, program: &SubmissionProgram) -> Result<Pool> {
         self.record(program)?.map_err(|fault| Error::Harness(format!("a correct variant: {fault}")))
     }
 }

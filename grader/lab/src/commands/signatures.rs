@@ -82,7 +82,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     eprintln!("confusion matrix: {}", file.display());
     let ([wrong, first, named], [right, blamed]) = (confusion.wrong(), confusion.right());
     println!("right cause first: {first} of {wrong}; among those named: {named} of {wrong}");
-    println!("correct hand-ins for which a cause is named: {blamed} of {right}");
+    println!("correct submissions for which a cause is named: {blamed} of {right}");
     Ok(ExitCode::SUCCESS)
 }
 

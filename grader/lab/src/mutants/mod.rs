@@ -1,4 +1,4 @@
-//! Does the grader see what it should see? Hand-ins whose mistakes are known, and right ones in many styles.
+//! Does the grader see what it should see? Submissions whose mistakes are known, and right ones in many styles.
 //!
 //! [`variants`] are the solution with something changed: [`Kind::Wrong`] ones must lose points in the tasks that
 //! their mistake breaks and in no other, [`Kind::Right`] ones must lose none. [`Ledger`] grades them and keeps the

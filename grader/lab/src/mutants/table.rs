@@ -49,7 +49,7 @@ pub fn table(variants: &Variants, rubric: &Rubric, records: &[Vec<&Record>]) -> 
             line(&mut text, format_args!("- `{}`, {}: {why}.", variant.id, tasks.join(", ")));
         }
     }
-    line(&mut text, format_args!("\n## Mistakes that no hand-in can make\n"));
+    line(&mut text, format_args!("\n## Mistakes that no submission can make\n"));
     for missing in &variants.not_possible {
         line(&mut text, format_args!("- Row {}: {}.", missing.row, missing.why));
     }

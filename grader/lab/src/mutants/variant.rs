@@ -28,7 +28,7 @@ impl Kind {
     }
 }
 
-/// A hand-in of which it is known what it should earn.
+/// A submission of which it is known what it should earn.
 #[derive(Clone, Debug)]
 pub struct Variant {
     /// What tells it from all others.
@@ -49,7 +49,7 @@ pub struct Variant {
     pub source: String,
 }
 
-/// A mistake of the catalogue that no hand-in can make.
+/// A mistake of the catalogue that no submission can make.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct NotPossible {

@@ -72,10 +72,10 @@ impl Frame {
         let points = || panel.curves.iter().flat_map(|curve| &curve.points);
         let drawn = || points().filter(|point| point.seconds > 0.0 && point.relative_mse.value > 0.0);
         let range = |values: &mut dyn Iterator<Item = f64>, margin: f64| -> Option<(f64, f64)> {
-            let (least, most) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| {
-                (least.min(value), most.max(value))
+            let (min, max) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(min, max), value| {
+                (min.min(value), max.max(value))
             });
-            (least <= most).then(|| (least.log10() - margin, most.log10() + margin))
+            (min <= max).then(|| (min.log10() - margin, max.log10() + margin))
         };
         let ends = drawn().flat_map(|point| {
             let [low, high] = point.relative_mse.interval;
@@ -91,12 +91,12 @@ impl Frame {
 }
 
 /// A range with room above it for as many lines of text as the names of the curves take.
-fn with_room((least, most): (f64, f64), lines: usize) -> (f64, f64) {
+fn with_room((min, max): (f64, f64), lines: usize) -> (f64, f64) {
     const LINE: f64 = 16.0;
     const HEIGHT: f64 = PANEL.1 as f64 - 90.0;
     let share = ((lines as f64 + 1.0) * LINE / HEIGHT).min(0.5);
     // Curves fall, and the names stand on the right: half of the room is there anyway.
-    (least, most + 0.5 * share / (1.0 - share) * (most - least))
+    (min, max + 0.5 * share / (1.0 - share) * (max - min))
 }
 
 /// Where a curve flattens.

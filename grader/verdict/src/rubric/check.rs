@@ -14,7 +14,7 @@ pub struct CheckSpec {
     /// In which scene; [`SCRIPTED`] for the kinds that make their own.
     #[serde(default = "scripted")]
     pub scene: String,
-    /// With which technique of the hand-in.
+    /// With which technique of the submission.
     pub technique: Technique,
     /// The largest number of bounces.
     pub max_bounces: u32,

@@ -22,7 +22,7 @@ pub struct Rubric {
     pub assignment: String,
     /// Its title.
     pub title: String,
-    /// What becomes of late hand-ins; without it, nothing is late.
+    /// What becomes of late submissions; without it, nothing is late.
     #[serde(default)]
     pub policy: Option<Rules>,
     /// The tasks, in the order of the sheet.

@@ -9,7 +9,7 @@ use serde::Deserialize;
 pub struct Rules {
     /// The IANA name of the time zone in which times without an offset are meant.
     pub time_zone: String,
-    /// What a late hand-in is worth; without it, late ones are not accepted.
+    /// What a late submission is worth; without it, late ones are not accepted.
     #[serde(default)]
     pub late: Option<LateRule>,
     /// For those who send a checksum in time and the file later.
@@ -20,7 +20,7 @@ pub struct Rules {
     pub round_to: f64,
 }
 
-/// What a late hand-in is worth.
+/// What a late submission is worth.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LateRule {

@@ -1,13 +1,13 @@
-//! What the page of a class takes from the records of its hand-ins: little of each, so that a large class fits.
+//! What the page of a class takes from the records of its submissions: little of each, so that a large class fits.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::class::gradebook::{Row, State};
-use crate::class::record::{Record, Shelf};
+use crate::class::record::{Record, ResultDir};
 use verdict::check::Verdict;
 
-/// What is kept of one hand-in.
+/// What is kept of one submission.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Digest {
     /// How long compiling and running took, in seconds.
@@ -27,7 +27,7 @@ pub(super) struct Rate {
     pub(super) passed: usize,
 }
 
-/// Hand-ins that share their likeliest mistake.
+/// Submissions that share their likeliest mistake.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Alike {
     /// What they share.
@@ -55,9 +55,9 @@ impl Digests {
         let mut digests = Self::default();
         let mut groups: BTreeMap<(bool, String), Vec<usize>> = BTreeMap::new();
         for (index, row) in rows.iter().enumerate() {
-            let shelf = Shelf::new(out, &row.key);
-            let record = (row.state == State::Graded).then(|| shelf.record_alone()).flatten();
-            let pages = record.is_some() && shelf.pages().iter().all(|page| page.is_file());
+            let result_dir = ResultDir::new(out, &row.key);
+            let record = (row.state == State::Graded).then(|| result_dir.record_alone()).flatten();
+            let pages = record.is_some() && result_dir.pages().iter().all(|page| page.is_file());
             let mut digest = Digest { pages, ..Digest::default() };
             if let Some(record) = &record {
                 digest.seconds = Some(record.seconds);
@@ -85,7 +85,7 @@ impl Digests {
     }
 }
 
-/// By what a hand-in is grouped: its likeliest mistake, else the checks that it does not pass; `None` if it passes all.
+/// By what a submission is grouped: its likeliest mistake, else the checks that it does not pass; `None` if it passes all.
 fn shared(record: &Record) -> Option<(bool, String)> {
     if let Some(mistake) = &record.mistake {
         return Some((true, mistake.clone()));

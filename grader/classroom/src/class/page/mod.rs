@@ -1,7 +1,7 @@
 //! The class as one self-contained page, for staff: a table that can be sorted, which task was hard, who made the same
 //! mistake, what is still to be marked.
 //!
-//! Records are read one after the other, and thumbnails go straight to the file: of a hand-in little more than its row is
+//! Records are read one after the other, and thumbnails go straight to the file: of a submission little more than its row is
 //! in memory. Everything that others have written is escaped by the template; names of folders are such that they need
 //! no more than that in a link (see [`crate::class::Member::key`]).
 
@@ -17,7 +17,7 @@ use base64::engine::general_purpose::STANDARD;
 use maud::html;
 
 use super::gradebook::Row;
-use super::record::Shelf;
+use super::record::ResultDir;
 use digest::Digests;
 use present::page::document;
 use verdict::error::Result;
@@ -33,7 +33,7 @@ pub struct ClassPage<'a> {
     pub rows: &'a [Row],
     /// Scores that are not what they were.
     pub changes: &'a [String],
-    /// How many groups of hand-ins are alike.
+    /// How many groups of submissions are alike.
     pub similar: usize,
     /// The folder of the results.
     pub out: &'a Path,
@@ -69,7 +69,7 @@ impl ClassPage<'_> {
         file.write_all(document::end(SCRIPT).as_bytes())
     }
 
-    /// A small picture of each hand-in, those with the fewest points first.
+    /// A small picture of each submission, those with the fewest points first.
     fn wall(&self, digests: &Digests, file: &mut BufWriter<&std::fs::File>) -> std::io::Result<()> {
         let mut order: Vec<usize> = (0..self.rows.len()).collect();
         order.sort_by(|&a, &b| {
@@ -80,7 +80,7 @@ impl ClassPage<'_> {
         for index in order {
             let row = &self.rows[index];
             // One that is cut off is a broken picture, no more.
-            let Ok(png) = std::fs::read(Shelf::new(self.out, &row.key).thumbnail()) else { continue };
+            let Ok(png) = std::fs::read(ResultDir::new(self.out, &row.key).thumbnail()) else { continue };
             if !begun {
                 let words = "The same scene by everybody, with multiple importance sampling; the fewest points come first.";
                 let begin = html! { h2 { "Pictures" } p.soft { (words) } };

@@ -8,7 +8,7 @@ use super::table::{link, name};
 use crate::class::gradebook::{Row, State};
 use present::page::plots::{Bars, bars};
 
-/// How many hand-ins stand in a list of the slowest.
+/// How many submissions stand in a list of the slowest.
 const LISTED: usize = 5;
 
 /// Bars of the distribution of points.
@@ -29,7 +29,7 @@ pub(super) fn header(page: &ClassPage<'_>) -> Markup {
             p { @for (index, (state, words)) in parts.into_iter().filter(|(state, _)| count(*state) > 0).enumerate() {
                 @if index > 0 { ", " } b { (count(state)) } " " (words)
             } }
-            @if page.similar > 0 { p { "Hand-ins that are the same or nearly so: " (page.similar) " groups, in "
+            @if page.similar > 0 { p { "Submissions that are the same or nearly so: " (page.similar) " groups, in "
                 a href="similar.txt" { "similar.txt" } "." } }
         }
     }
@@ -73,7 +73,7 @@ pub(super) fn points(page: &ClassPage<'_>) -> Markup {
                         }
                     }
                 } }
-            } } p.soft { "Of " (points.len()) " hand-ins with points; raw, before anything is taken off for being late." } }
+            } } p.soft { "Of " (points.len()) " submissions with points; raw, before anything is taken off for being late." } }
         }
     }
 }
@@ -119,7 +119,7 @@ pub(super) fn alike(page: &ClassPage<'_>, digests: &Digests) -> Markup {
             h2 { "The same mistake" }
             p.soft { "By the likeliest cause; where none is known, by the checks that did not pass." }
             div.scroll { table {
-                thead { tr { th.number { "hand-ins" } th { "what they share" } th { "who" } } }
+                thead { tr { th.number { "submissions" } th { "what they share" } th { "who" } } }
                 tbody { @for group in &digests.alike { tr {
                     td.number { (group.rows.len()) }
                     td.name { @if group.is_cause { b { (group.what) } } @else { (long(&group.what)) } }
@@ -171,7 +171,7 @@ pub(super) fn speed(page: &ClassPage<'_>, digests: &Digests) -> Markup {
                 (list("The most efficient", work.iter().take(LISTED).map(|&(index, work)| (index, format!("{:.2} times the median", median / work))).collect()))
             }
             @if !work.is_empty() { p.soft { "Efficiency is 1 / (variance × time) of multiple importance sampling, in the scenes of the check "
-                code { "efficiency" } ". Several hand-ins were graded at once, so that times are rough: "
+                code { "efficiency" } ". Several submissions were graded at once, so that times are rough: "
                 code { "cargo grader converge" } " measures exactly." } }
         }
     }
@@ -185,7 +185,7 @@ pub(super) fn to_mark(page: &ClassPage<'_>) -> Markup {
                 .filter(|row| row.state == State::Graded && row.tasks.get(&task.id).copied().flatten().is_none()).collect();
             h2 { "To be marked: " (task.id) " " (task.title) }
             @if missing.is_empty() { p { "nothing is left" } } @else {
-                p { (missing.len()) " hand-ins have no mark yet. "
+                p { (missing.len()) " submissions have no mark yet. "
                     code { "cargo grader mark HAND-IN " (task.id) " POINTS --comment=\"…\" --out=" (page.out.display()) }
                     ", then " code { "--resume" } "." }
                 details {

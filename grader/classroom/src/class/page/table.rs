@@ -109,5 +109,5 @@ fn why(row: &Row) -> Markup {
 
 /// A file of a row's results, as seen from the page.
 pub(super) fn link(row: &Row, file: &str) -> String {
-    format!("hand-ins/{}/{file}", row.key)
+    format!("submissions/{}/{file}", row.key)
 }

@@ -43,7 +43,7 @@ fn row(key: &str, text: &str, points: f64) -> Row {
     }
 }
 
-/// The record of a hand-in that fails `failed`, as it lies on the disk.
+/// The record of a submission that fails `failed`, as it lies on the disk.
 fn record(out: &Path, key: &str, mistake: Option<&str>, failed: &[&str]) {
     let verdict = |check: &str| if failed.contains(&check) { "fail" } else { "pass" };
     let checks: BTreeMap<String, &str> =
@@ -53,7 +53,7 @@ fn record(out: &Path, key: &str, mistake: Option<&str>, failed: &[&str]) {
         "earned": 10.0, "explanations": [], "checksums": [], "source": "s", "graded_at": "", "seconds": 2.0,
         "mistake": mistake, "work": 0.5, "report": "r",
     });
-    let folder = out.join("hand-ins").join(key);
+    let folder = out.join("submissions").join(key);
     std::fs::create_dir_all(&folder).expect("it can be made");
     std::fs::write(folder.join("record.json"), record.to_string()).expect("it can be written");
     for page in ["report.html", "report-tutor.html"] {
@@ -71,7 +71,7 @@ fn written(rows: &[Row], changes: &[String], out: &Path) -> String {
 }
 
 #[test]
-fn nothing_that_a_hand_in_or_a_name_says_is_markup() {
+fn nothing_that_a_submission_or_a_name_says_is_markup() {
     let out = tempfile::tempdir().expect("a temporary folder");
     record(out.path(), "ann", Some(EVIL), &["a"]);
     let text = written(&[row("ann", EVIL, 3.0), row("bob", EVIL, 4.0)], &[EVIL.to_owned()], out.path());
@@ -98,10 +98,10 @@ fn the_page_says_what_was_hard_who_is_alike_and_what_is_to_be_marked() {
         digests.alike.iter().map(|group| (group.what.as_str(), group.rows.len())).collect();
     assert_eq!(groups, [("the cosine is missing", 2), ("1 a", 1)]);
     for expected in [
-        "href=\"hand-ins/ann/report-tutor.html\"",
+        "href=\"submissions/ann/report-tutor.html\"",
         "1 of 4",
         "3 of 4",
-        "4 hand-ins have no mark yet",
+        "4 submissions have no mark yet",
         "ann: 1 3 → 5",
         "similar.txt",
         "<svg class=\"plot\"",
@@ -118,7 +118,7 @@ fn thumbnails_are_embedded_and_the_fewest_points_come_first() {
     let out = tempfile::tempdir().expect("a temporary folder");
     for key in ["ann", "bob"] {
         record(out.path(), key, None, &[]);
-        std::fs::write(out.path().join("hand-ins").join(key).join("thumbnail.png"), key)
+        std::fs::write(out.path().join("submissions").join(key).join("thumbnail.png"), key)
             .expect("it can be written");
     }
     let text = written(&[row("ann", "x", 9.0), row("bob", "x", 2.0)], &[], out.path());

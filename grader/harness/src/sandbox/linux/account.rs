@@ -1,4 +1,4 @@
-//! The user id of one hand-in, which no other one has while it is in use.
+//! The user id of one submission, which no other one has while it is in use.
 
 use std::fs::{DirBuilder, File, OpenOptions};
 use std::os::unix::fs::{DirBuilderExt, MetadataExt, chown};
@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use super::user::{self, User};
 use verdict::error::{Error, Result};
 
-/// The user that one hand-in is compiled and run as. Nobody else has its id as long as this lives.
+/// The user that one submission is compiled and run as. Nobody else has its id as long as this lives.
 #[derive(Debug)]
 pub(crate) struct Account {
-    /// `None` where hand-ins run as the same user as the grader.
+    /// `None` where submissions run as the same user as the grader.
     id: Option<u32>,
     _lock: Option<File>,
 }
@@ -38,7 +38,7 @@ impl Account {
                 Err(std::fs::TryLockError::Error(error)) => return Err(trouble(error)),
             }
         }
-        Err(Error::Harness(format!("all {} user ids for hand-ins are in use", user::IDS)))
+        Err(Error::Harness(format!("all {} user ids for submissions are in use", user::IDS)))
     }
 
     /// Its user id, if it is not the grader's.

@@ -1,4 +1,4 @@
-//! What it takes to load a hand-in's program, and what of a running one the kernel confirms.
+//! What it takes to load a submission's program, and what of a running one the kernel confirms.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! The other user that hand-ins run as when the grader is root.
+//! The other user that submissions run as when the grader is root.
 
 use std::os::unix::fs::MetadataExt;
 use std::path::Path;
@@ -14,13 +14,13 @@ use rustix::thread::{
 
 use super::super::Grants;
 
-/// How many ids there are for hand-ins: as many can be compiled or run at a time, on the whole machine.
+/// How many ids there are for submissions: as many can be compiled or run at a time, on the whole machine.
 pub(super) const IDS: u32 = 1024;
 
 /// Where they may begin. Nobody gives away the first ones; a container that knows of few ids has the others.
 const FIRST_IDS: [u32; 2] = [0x7a00_0000, 64_000];
 
-/// The first id for hand-ins on this machine. A group has the same number as its user.
+/// The first id for submissions on this machine. A group has the same number as its user.
 pub(super) fn first_id() -> u32 {
     static FIRST: OnceLock<u32> = OnceLock::new();
     *FIRST.get_or_init(|| {
@@ -30,7 +30,7 @@ pub(super) fn first_id() -> u32 {
     })
 }
 
-/// Whether one line of a map of ids (first inside, first outside, how many) has all those for hand-ins.
+/// Whether one line of a map of ids (first inside, first outside, how many) has all those for submissions.
 fn has_ids(map: &str, first: u32) -> bool {
     map.lines().any(|line| {
         let numbers: Vec<u64> = line.split_whitespace().filter_map(|number| number.parse().ok()).collect();
@@ -39,7 +39,7 @@ fn has_ids(map: &str, first: u32) -> bool {
     })
 }
 
-/// Who hand-ins run as.
+/// Who submissions run as.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum User {
     /// The same user as the grader, who is not root.

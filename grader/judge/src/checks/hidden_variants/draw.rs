@@ -74,8 +74,8 @@ impl Draw<'_> {
         self.random.next_1d() < probability
     }
 
-    fn count(&mut self, least: u32, most: u32) -> u32 {
-        least + (self.random.next_1d() * (most - least + 1) as f32) as u32
+    fn count(&mut self, min: u32, max: u32) -> u32 {
+        min + (self.random.next_1d() * (max - min + 1) as f32) as u32
     }
 
     fn color(&mut self, low: f32, high: f32) -> Rgb {

@@ -31,7 +31,7 @@ pub(super) use scenes::{Configuration, Plan, draw};
 /// How far the sum of two weights may be from one.
 const TOLERATED: f64 = 1e-4;
 
-/// Paths in each scene, if the hand-in decides nothing by chance; and otherwise.
+/// Paths in each scene, if the submission decides nothing by chance; and otherwise.
 const FEW: u64 = 64;
 const MANY: u64 = 16_384;
 

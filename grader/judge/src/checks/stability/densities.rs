@@ -13,7 +13,7 @@ use super::{Asked, Found};
 use crate::checks::mis_weights::{Configuration, Plan, draw, mean_and_error};
 use harness::host_process::HostProcess;
 
-/// Paths in each scene, for hand-ins that decide something by chance.
+/// Paths in each scene, for submissions that decide something by chance.
 const PATHS: u64 = 256;
 
 /// How far the sum of two weights may be from one, beyond noise.

@@ -1,6 +1,6 @@
 //! The same scene larger or brighter.
 //!
-//! All factors are powers of two, so that scaling is exact in floating-point numbers: whatever a correct hand-in does,
+//! All factors are powers of two, so that scaling is exact in floating-point numbers: whatever a correct submission does,
 //! with the same random numbers it gives the same picture, to the last bit. A constant of its own, such as an epsilon or
 //! a limit on radiance, breaks that.
 
@@ -28,8 +28,8 @@ const BATCHES: u64 = 64;
 /// Relative differences up to this are nobody's matter.
 const TOLERATED: f64 = 1e-3;
 
-/// Standard errors that are noise, for hand-ins that do not give the same numbers twice. With 63 degrees of freedom one
-/// of 17 regions in 16 renderings is beyond them once in a hundred million hand-ins.
+/// Standard errors that are noise, for submissions that do not give the same numbers twice. With 63 degrees of freedom one
+/// of 17 regions in 16 renderings is beyond them once in a hundred million submissions.
 const NOISE: f64 = 8.0;
 
 /// Powers of two by which the scene is made larger, and by which its lights are made brighter.

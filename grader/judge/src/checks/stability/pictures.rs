@@ -1,4 +1,4 @@
-//! Extreme scenes with known answers, through the hand-in's code.
+//! Extreme scenes with known answers, through the submission's code.
 
 use arty::sampler::batch_seed;
 use harness::host_process::HostProcess;
@@ -13,13 +13,13 @@ use harness::job::JobError;
 /// Paths for each scene.
 const EFFORT: Effort = Effort(1 << 13);
 
-/// Pictures with more pixels than this say nothing about a hand-in: it is the framework that has to bear them.
+/// Pictures with more pixels than this say nothing about a submission: it is the framework that has to bear them.
 const MOST_PIXELS: u32 = 64;
 
 /// Longer paths cost time and say nothing new.
 const MOST_BOUNCES: u32 = 400;
 
-/// Pixels of a hand-in may be a thousandth off where those of the framework are right to a millionth.
+/// Pixels of a submission may be a thousandth off where those of the framework are right to a millionth.
 const ALLOWED: f64 = 3e-3;
 
 pub(super) fn find(asked: &Asked<'_>, process: &mut HostProcess) -> Found {

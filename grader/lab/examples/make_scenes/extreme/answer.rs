@@ -17,7 +17,7 @@ pub(crate) struct Answer {
     pub(crate) size: [u32; 2],
     /// Relative error that single precision and the scene's own approximations explain.
     pub(crate) tolerance: f64,
-    /// True if a hand-in's points depend on it; else it is remarked on.
+    /// True if a submission's points depend on it; else it is remarked on.
     pub(crate) judged: bool,
 }
 

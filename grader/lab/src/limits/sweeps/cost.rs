@@ -9,7 +9,7 @@ use arty::scene::{Scene, SceneDescription};
 
 use super::transport::{floor_below_points, furnace};
 use crate::limits::sweep::{Point, Series, Sweep, decades};
-use harness::build::HandInProgram;
+use harness::build::SubmissionProgram;
 use harness::host_process::HostProcess;
 use judge::extreme::measure::{Effort, Measured, measure};
 use verdict::error::{Error, Result};
@@ -63,7 +63,7 @@ pub fn triangles(seed: u64) -> Sweep {
 }
 
 fn rendered(
-    program: &HandInProgram,
+    program: &SubmissionProgram,
     scene: &SceneDescription,
     settings: Settings,
     paths: u64,
@@ -76,7 +76,7 @@ fn rendered(
 }
 
 /// Asking one of many lights.
-pub fn lights(program: &HandInProgram, seed: u64) -> Result<Sweep> {
+pub fn lights(program: &SubmissionProgram, seed: u64) -> Result<Sweep> {
     let settings = Settings { technique: Technique::Mis, max_bounces: 1 };
     let mut points = Vec::new();
     for count in decades(0, 6) {
@@ -95,7 +95,7 @@ pub fn lights(program: &HandInProgram, seed: u64) -> Result<Sweep> {
 }
 
 /// Long paths.
-pub fn bounces(program: &HandInProgram, seed: u64) -> Result<Sweep> {
+pub fn bounces(program: &SubmissionProgram, seed: u64) -> Result<Sweep> {
     // Roulette ends most paths long before: this is about those that it does not end.
     let scene = furnace(2, 0.9);
     let truth = |bounces: f64| (1.0 - 0.9f64.powf(bounces + 1.0)) / 0.1;

@@ -8,7 +8,7 @@ use arty::scene::{LightDescription, Scene, SceneDescription, Specular};
 use glam::DVec3;
 
 use crate::limits::sweep::{Point, Series, Sweep, decades};
-use harness::build::HandInProgram;
+use harness::build::SubmissionProgram;
 use harness::host_process::HostProcess;
 use judge::extreme::build::{add, camera, ceiling, changed, empty, floor, grey, hollow_ball, rectangle};
 use judge::extreme::measure::{Effort, measure};
@@ -21,14 +21,14 @@ const ERROR: &str = "relative error";
 
 /// A program that renders the points of sweeps.
 pub struct Renderer<'a> {
-    program: &'a HandInProgram,
+    program: &'a SubmissionProgram,
     seed: u64,
     effort: Effort,
 }
 
 impl<'a> Renderer<'a> {
     /// Renders with a program, from a seed.
-    pub fn new(program: &'a HandInProgram, seed: u64, effort: Effort) -> Self {
+    pub fn new(program: &'a SubmissionProgram, seed: u64, effort: Effort) -> Self {
         Self { program, seed, effort }
     }
 

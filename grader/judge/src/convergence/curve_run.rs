@@ -12,7 +12,7 @@ use verdict::check::Fault;
 use verdict::error::Result;
 
 /// One curve while it is measured.
-pub(super) struct Racer {
+pub(super) struct CurveRun {
     /// Its place among the contestants.
     pub(super) contestant: usize,
     pub(super) settings: Settings,
@@ -47,7 +47,7 @@ const RENDER_TIME: (f64, f64) = (0.3e-3, 5.0);
 /// Each length is at most so many times the next shorter one.
 const LARGEST_STEP: f64 = 4.0;
 
-impl Racer {
+impl CurveRun {
     /// Warms up, sees how fast it goes, and plans renderings that take the given processor time altogether.
     pub(super) fn plan(&mut self, process: &mut HostProcess, seconds: f64, lengths: u32) -> Result<()> {
         let mut samples = 1;
