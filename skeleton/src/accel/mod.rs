@@ -180,7 +180,7 @@ impl Accel {
     fn intersect_with<V: Lanes>(&self, ray: Pairs, t_max: f32, exclude: u32) -> Option<TriangleHit> {
         let [origin, direction] = ray.vectors();
         let ray = PreparedRay::new(origin * self.scale, direction * self.scale, exclude)?;
-        // An infinite end would meet the empty boxes of unused lanes where rounding takes a ray's origin to infinity.
+        // With an infinite end, the empty boxes of unused lanes would be hit if rounding takes the origin to infinity.
         let end = if t_max > f32::MAX { f32::MAX } else { t_max };
         let mut nearest = Nearest { t: end, primitive: 0, weights: [0.0; 2], weight_sum: 0.0 };
         self.tree.intersect::<V>(&ray, &mut nearest);
@@ -197,7 +197,7 @@ impl Accel {
     fn occluded_with<V: Lanes>(&self, ends: Pairs, exclude: u32) -> bool {
         let [origin, target] = ends.vectors();
         let (origin, target) = (origin * self.scale, target * self.scale);
-        // One rounding: f64 would give the same.
+        // A single rounding; f64 would give the same result.
         let Some(ray) = PreparedRay::new(origin, target - origin, exclude) else { return false };
         let reach = origin.abs().max_element() + target.abs().max_element();
         self.tree.occluded::<V>(&ray, target, reach)
@@ -209,8 +209,8 @@ type Pair = (f32, f32);
 
 /// Two vectors, by axis.
 ///
-/// A function takes a pair in two registers, but a vector in memory. There the caller has just written it coordinate by
-/// coordinate; whoever then reads several at once has to wait until all are written.
+/// Pairs are passed in registers, vectors in memory: there the caller has just written them coordinate by coordinate, and a
+/// wide load would stall until all stores are complete.
 #[derive(Clone, Copy)]
 struct Pairs {
     x: Pair,

@@ -111,7 +111,7 @@ fn send(client: &mut TevClient, image_name: &str, layer: &str, image: &Image) ->
     for (band, pixels) in image.pixels().chunks(rows_per_packet * width).enumerate() {
         let data: Vec<f32> = pixels.iter().flat_map(|pixel| pixel.to_array()).collect();
         client.send(PacketUpdateImage {
-            image_name: image_name,
+            image_name,
             grab_focus: false,
             channel_names: &channel_names(layer),
             // The channels are interleaved.

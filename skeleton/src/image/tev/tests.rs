@@ -176,7 +176,7 @@ fn without_a_viewer_opening_fails_quickly_and_names_the_address() {
     let address = listener.local_addr().expect("an address").to_string();
     drop(listener);
     let start = Instant::now();
-    let error = LiveView::open(&address, "x", 1, 1, &[""]).expect_err("nobody listens");
+    let error = LiveView::open(&address, "x", 1, 1, &[""]).expect_err("nothing listens");
     assert!(start.elapsed() < Duration::from_secs(10));
     assert!(error.to_string().starts_with(&format!("cannot reach the tev viewer at {address} (")));
     for nonsense in ["127.0.0.1:", "127.0.0.1:99999", ":::", ""] {
@@ -192,7 +192,7 @@ fn a_lost_viewer_is_reported_once() {
     let viewer = thread::spawn(move || {
         let (mut stream, _) = listener.accept().expect("a renderer");
         read_packet(&mut stream).expect("the first packet");
-        hang_up.recv().expect("the test goes on");
+        hang_up.recv().expect("the test continues");
     });
     let mut view = LiveView::open(&address, "x", 64, 64, &[""]).expect("it listens");
     sender.send(()).expect("the viewer waits for this");
@@ -204,7 +204,7 @@ fn a_lost_viewer_is_reported_once() {
         thread::sleep(Duration::from_millis(1));
         view.show("", &image).err()
     });
-    assert!(first_error.is_some_and(|error| error.to_string().contains("rendering goes on")));
+    assert!(first_error.is_some_and(|error| error.to_string().contains("continuing without it")));
     for _ in 0..3 {
         view.show("", &image).expect("no second complaint");
     }
