@@ -132,7 +132,7 @@ fn scenes_outside_the_reliable_sizes_and_offsets_give_a_warning() {
     };
     assert!(warnings(1.0, 0.0).is_empty());
     assert!(warnings(1.0, 500.0).is_empty());
-    assert!(warnings(1.0, 2000.0)[0].contains("from the origin"));
-    assert!(warnings(1e-5, 0.0)[0].contains("units large"));
-    assert!(warnings(1e6, 0.0)[0].contains("units large"));
+    assert!(warnings(1.0, 2000.0)[0].contains("away from the origin"));
+    assert!(warnings(1e-5, 0.0)[0].contains("has a size of"));
+    assert!(warnings(1e6, 0.0)[0].contains("has a size of"));
 }

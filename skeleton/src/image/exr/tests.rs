@@ -214,12 +214,12 @@ fn scan_lines_of_other_programs_are_read() {
 #[test]
 fn unsupported_formats_are_errors() {
     let tiled = foreign_file(Compression::ZIP16, Blocks::Tiles(Vec2(2, 2)), LineOrder::Increasing);
-    assert_eq!(decoded(&tiled), Err("it is tiled or deep; write it in scan lines".to_owned()));
+    assert_eq!(decoded(&tiled), Err("it is tiled or deep; save it as scan lines".to_owned()));
     let piz = foreign_file(Compression::PIZ, Blocks::ScanLines, LineOrder::Increasing);
     let error = decoded(&piz).expect_err("this compression is not supported");
     assert!(error.contains("(piz compression) is not supported"), "{error}");
-    for no_picture in [b"".as_slice(), b"v/1", b"\x89PNG\r\n\x1a\n and so on"] {
-        let error = decoded(no_picture).expect_err("this is no picture");
+    for no_image in [b"".as_slice(), b"v/1", b"\x89PNG\r\n\x1a\n and so on"] {
+        let error = decoded(no_image).expect_err("this is not an image");
         assert!(error.contains("not an OpenEXR file"), "{error}");
     }
     let error = ExrFile::read(Path::new("no/such/file.exr")).expect_err("there is no such file");
@@ -293,10 +293,10 @@ fn a_header_that_claims_a_huge_image_is_refused_before_memory_is_allocated() {
     let claimed = |width: i32, height: i32| {
         let window: Vec<u8> = [0, 0, width - 1, height - 1].iter().flat_map(|x| x.to_le_bytes()).collect();
         let bytes = with_attribute(&bytes, "dataWindow", "box2i", &window);
-        decoded(&bytes).expect_err("this is not the size of the picture")
+        decoded(&bytes).expect_err("this is not the size of the image")
     };
-    assert!(claimed(1 << 29, 1 << 29).contains("are more than 268435456 samples"));
-    assert!(claimed(1 << 29, 1).contains("are more than 268435456 samples"));
+    assert!(claimed(1 << 29, 1 << 29).contains("exceed the limit of 268435456 samples"));
+    assert!(claimed(1 << 29, 1).contains("exceed the limit of 268435456 samples"));
     // A gigabyte is within the limit, but not for a file of a few thousand bytes.
     assert!(claimed(6000, 6000).contains("too many for"));
     let error = decode(Cursor::new(&bytes), 1 << 40).expect_err("this is far too long");
