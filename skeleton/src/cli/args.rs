@@ -14,8 +14,8 @@ use crate::integrator::Technique;
 
 /// Renders a scene.
 ///
-/// All randomness comes from the seed: the same command line renders the same image, bit by bit, with any number of
-/// threads.
+/// All randomness comes from the seed: the same command line renders the same image, down to the last bit, with
+/// any number of threads.
 #[derive(Debug, Parser)]
 #[command(name = "arty", version, max_term_width = 100, after_help = SHORT_EXAMPLES, after_long_help = EXAMPLES)]
 pub(super) struct Args {
@@ -23,11 +23,11 @@ pub(super) struct Args {
     #[arg(value_name = "SCENE.yml")]
     pub(super) scene: PathBuf,
 
-    /// The algorithm
+    /// Rendering algorithm
     #[arg(short, long, value_enum, default_value_t = Algo::Pt, help_heading = ALGORITHM)]
     pub(super) algo: Algo,
 
-    /// The estimator of the path tracer
+    /// Estimator of the path tracer
     #[arg(long, value_enum, default_value_t = Technique::Mis, help_heading = ALGORITHM)]
     pub(super) technique: Technique,
 
