@@ -1,8 +1,7 @@
-//! How many rays a second find what they hit, or find out whether something is between two points. One thread.
+//! Rays and shadow rays per second, on one thread.
 //!
-//! `cargo bench -p arty --bench traversal`. The rays are those of a path tracer in scenes of the collection: from the
-//! camera, from bounce to bounce, and from hit points to points on lights. Throughput is in elements, that is rays, a
-//! second; a hit includes its point and its normals.
+//! `cargo bench -p arty --bench traversal`. The rays are those of a path tracer in several scenes: camera rays, bounces,
+//! and shadow rays to lights. Throughput is in elements per second; elements are rays. A hit includes its point and normals.
 
 use std::hint::black_box;
 use std::path::Path;
@@ -11,13 +10,13 @@ use arty::prelude::{Hit, Ray, Sampler, Scene, Vec3};
 use arty::scene::file;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
-/// Of each kind.
+/// Number of rays of each kind.
 const RAYS: usize = 1 << 14;
 
-/// The longest path, in bounces.
+/// Maximum number of bounces.
 const MAX_BOUNCES: usize = 8;
 
-/// Image columns and rows that camera rays are spread over.
+/// Width and height of the image for camera rays.
 const SIZE: (u32, u32) = (128, 128);
 
 #[derive(Default)]
@@ -28,7 +27,7 @@ struct Rays<'a> {
 }
 
 impl<'a> Rays<'a> {
-    /// The rays of as many paths as it takes. None if the scene has too few of a kind.
+    /// The rays of as many paths as needed; `None` if the scene has too few rays of a kind.
     fn of(scene: &'a Scene) -> Option<Self> {
         let camera = scene.camera(SIZE.0, SIZE.1);
         let mut rays = Self::default();
@@ -38,7 +37,7 @@ impl<'a> Rays<'a> {
                 rays.shadow.truncate(RAYS);
                 return Some(rays);
             }
-            // Neighbouring pixels follow each other in an image; here each is drawn apart, the harder case.
+            // Random pixels are harder than neighbouring ones, as in an image.
             let mut sampler = Sampler::new(1, SIZE, path);
             let (u, v) = sampler.next_2d();
             let (column, row) = (u * SIZE.0 as f32, v * SIZE.1 as f32);

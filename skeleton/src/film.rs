@@ -1,12 +1,11 @@
-//! Where samples are gathered.
+//! Accumulation of samples.
 
 use crate::math::Rgb;
 
 /// For each pixel the number, the sum and the sum of squares of its samples, in double precision.
 ///
-/// Samples that are not finite cannot be summed. They count as black in the sums, and are reported one by one in
-/// [`anomalies`](Self::anomalies), so that nobody can overlook them. Negative samples are summed as they are, and
-/// are reported too.
+/// NaN and infinite samples count as black. They are reported in [`anomalies`](Self::anomalies), as are negative samples,
+/// which are summed unchanged.
 #[derive(Clone, Debug)]
 pub struct Film {
     width: u32,
@@ -15,38 +14,38 @@ pub struct Film {
     anomalies: Anomalies,
 }
 
-/// The samples of one pixel, so far.
+/// Accumulated samples of one pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pixel {
-    /// How many.
+    /// Number of samples.
     pub count: u64,
-    /// Their sum, per channel.
+    /// Sum of the samples, per channel.
     pub sum: [f64; 3],
-    /// The sum of their squares, per channel.
+    /// Sum of their squares, per channel.
     pub sum_of_squares: [f64; 3],
 }
 
-/// Samples that no correct estimator gives.
+/// Samples that no correct estimator returns: NaN, infinite or negative.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Anomalies {
-    /// How many samples were NaN or infinite in a channel.
+    /// Number of samples with a NaN or infinite channel.
     pub non_finite: u64,
-    /// How many were finite but negative in a channel.
+    /// Number of finite samples with a negative channel.
     pub negative: u64,
-    /// The first [`KEPT`](Self::KEPT) of them: by the number of the sample, then row by row, then by column.
+    /// The first [`KEPT`](Self::KEPT) anomalies, ordered by sample number, row and column.
     pub first: Vec<Anomaly>,
 }
 
-/// One sample that no correct estimator gives.
+/// A sample that no correct estimator returns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Anomaly {
     /// Pixel column, from the left.
     pub x: u32,
     /// Pixel row, from the top.
     pub y: u32,
-    /// The number of the sample, as [`Sampler::new`](crate::sampler::Sampler::new) takes it to replay its path.
+    /// Sample number, the argument of [`Sampler::new`](crate::sampler::Sampler::new) to replay its path.
     pub sample: u64,
-    /// Its value.
+    /// The value of the sample.
     pub value: Rgb,
 }
 
@@ -72,19 +71,19 @@ impl Film {
         &self.pixels
     }
 
-    /// The rows, to be filled by several threads at once.
+    /// The rows, for parallel iteration.
     pub(crate) fn rows_mut(&mut self) -> impl rayon::iter::IndexedParallelIterator<Item = &mut [Pixel]> {
         use rayon::slice::ParallelSliceMut;
-        // A film without columns has no rows either, but chunks must have a length.
+        // A film of width 0 has no rows, but the length of chunks must not be 0.
         self.pixels.par_chunks_mut((self.width as usize).max(1))
     }
 
-    /// The number of samples of the pixel that has fewest: all have the same, unless rendering was interrupted.
+    /// Minimum number of samples over all pixels. All are equal unless rendering was interrupted.
     pub fn samples(&self) -> u64 {
         self.pixels.iter().map(|pixel| pixel.count).min().unwrap_or(0)
     }
 
-    /// Samples that were not finite, or negative.
+    /// NaN, infinite and negative samples.
     pub fn anomalies(&self) -> &Anomalies {
         &self.anomalies
     }
@@ -95,7 +94,7 @@ impl Film {
 }
 
 impl Pixel {
-    /// Adds a sample. False if it is not finite: then it is counted as black.
+    /// Adds a sample. Returns false if it is not finite: then it counts as black.
     #[inline]
     pub(crate) fn add(&mut self, sample: Rgb) -> bool {
         self.count += 1;
@@ -110,13 +109,13 @@ impl Pixel {
         true
     }
 
-    /// The mean of the samples: the estimate of the pixel's radiance. Black without samples.
+    /// Mean of the samples: the estimate of the pixel's radiance. Black without samples.
     pub fn mean(&self) -> Rgb {
         let count = self.count.max(1) as f64;
         Rgb::from(self.sum.map(|sum| (sum / count) as f32))
     }
 
-    /// The unbiased variance of one sample, per channel; 0 for fewer than two samples.
+    /// Unbiased estimate of the variance of a sample, per channel; 0 for fewer than two samples.
     pub fn sample_variance(&self) -> [f64; 3] {
         if self.count < 2 {
             return [0.0; 3];
@@ -128,7 +127,7 @@ impl Pixel {
         })
     }
 
-    /// The variance of the mean: that of one sample, divided by their number.
+    /// Variance of the mean: the variance of a sample divided by the number of samples.
     pub fn variance_of_mean(&self) -> Rgb {
         let count = self.count.max(1) as f64;
         Rgb::from(self.sample_variance().map(|variance| (variance / count) as f32))
@@ -136,15 +135,15 @@ impl Pixel {
 }
 
 impl Anomalies {
-    /// How many are kept in [`first`](Self::first).
+    /// Maximum length of [`first`](Self::first).
     pub const KEPT: usize = 16;
 
-    /// True if there are none.
+    /// True if there are no anomalies.
     pub fn is_empty(&self) -> bool {
         self.non_finite == 0 && self.negative == 0
     }
 
-    /// Looks at a sample and remembers it if it is one of those.
+    /// Counts and keeps a sample if it is an anomaly.
     #[inline]
     pub(crate) fn inspect(&mut self, x: u32, y: u32, sample: u64, value: Rgb) {
         if value.is_finite() && value.min_channel() >= 0.0 {
@@ -158,7 +157,7 @@ impl Anomalies {
         self.keep(Anomaly { x, y, sample, value });
     }
 
-    /// Remembers an anomaly if it is among the first, whatever the order in which they are reported.
+    /// Keeps an anomaly if it is among the first, in whatever order they are reported.
     fn keep(&mut self, anomaly: Anomaly) {
         let order = |anomaly: &Anomaly| (anomaly.sample, anomaly.y, anomaly.x);
         let place = self.first.partition_point(|other| order(other) < order(&anomaly));
@@ -168,7 +167,7 @@ impl Anomalies {
         }
     }
 
-    /// Adds what other pixels had to report.
+    /// Adds the anomalies of other pixels.
     pub(crate) fn merge(&mut self, other: Self) {
         self.non_finite += other.non_finite;
         self.negative += other.negative;
@@ -183,7 +182,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn mean_and_variance_are_those_of_the_samples() {
+    fn mean_and_variance_match_the_samples() {
         let mut pixel = Pixel::default();
         for value in [1.0, 2.0, 3.0, 6.0] {
             assert!(pixel.add(Rgb::new(value, 10.0 * value, 0.5)));
@@ -195,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_that_are_not_finite_are_counted_and_named() {
+    fn non_finite_and_negative_samples_are_counted_and_located() {
         let mut pixel = Pixel::default();
         let mut anomalies = Anomalies::default();
         for (sample, value) in [1.0, f32::NAN, -2.0, f32::INFINITY].into_iter().enumerate() {
@@ -204,7 +203,7 @@ mod tests {
         }
         assert_eq!((anomalies.non_finite, anomalies.negative), (2, 1));
         assert_eq!(anomalies.first.iter().map(|anomaly| anomaly.sample).collect::<Vec<_>>(), [1, 2, 3]);
-        assert_eq!(pixel.count, 4, "they stay in the number of samples");
+        assert_eq!(pixel.count, 4, "they count as samples");
         assert_eq!(pixel.mean(), Rgb::gray(-0.25));
     }
 }

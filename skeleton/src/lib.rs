@@ -30,7 +30,7 @@
 //! Positions and directions are in world space, right-handed. Directions are unit vectors that point away from the
 //! surface, towards the viewer (`wo`) or the light (`wi`). Radiance is in W·sr⁻¹·m⁻², where the metre is the
 //! scene's unit of length. Densities of directions are per solid angle, densities of points on lights per area.
-//! Lights emit from their front only: the side from which their vertices run counter-clockwise.
+//! Lights emit from their front only: the side from which their vertices are counter-clockwise.
 
 pub mod math;
 

@@ -1,4 +1,4 @@
-//! From an integrator to an image.
+//! Rendering: from an integrator to a film.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,9 +12,9 @@ use crate::math::Rgb;
 use crate::sampler::Sampler;
 use crate::scene::Scene;
 
-/// One sample of one pixel: a random place in the pixel's square, and the radiance seen there.
+/// One sample of one pixel: the radiance along a ray through a random position in the pixel.
 ///
-/// This is all that an image is made of, so any path can be computed again by its (seed, pixel, sample).
+/// Images consist of nothing else, so any path can be replayed by its (seed, pixel, sample).
 #[inline]
 pub fn sample_pixel(
     integrator: &dyn Integrator,
@@ -31,8 +31,8 @@ pub fn sample_pixel(
 
 /// Adds the samples with the given numbers to each pixel of the film, using all threads of the current rayon pool.
 ///
-/// The result depends on nothing but the arguments: each pixel's samples are added in the order of their numbers,
-/// whichever thread does it. When `stop` becomes true, the pixels that were not begun are left as they are.
+/// The result depends on the arguments only: each pixel adds its samples in order, on whichever thread. When `stop` becomes
+/// true, pixels that have not been started are skipped.
 pub fn render(
     integrator: &dyn Integrator,
     scene: &Scene,
@@ -57,7 +57,7 @@ pub fn render(
         }
         anomalies
     };
-    // Row by row, so that no thread is left with many of them while the others have nothing to do any more.
+    // Single rows balance the load between threads.
     let rows = film.rows_mut().enumerate().with_max_len(1);
     let anomalies = rows.map(row).reduce(Anomalies::default, |mut all, some| {
         all.merge(some);

@@ -1,36 +1,31 @@
-//! From radiance to what a display shows, and back.
-//!
-//! The transfer curve is that of sRGB (IEC 61966-2-1): linear near black, a power of 2.4 above.
+//! The sRGB transfer curve (IEC 61966-2-1), and exposure.
 
 use std::sync::LazyLock;
 
-/// The sRGB encoding of a linear value: 0 is black, 1 is the display's white.
-///
-/// Not clamped: the curve goes on above 1, and its straight part below 0.
+/// The sRGB encoding of a linear value: 0 is black, 1 is white. Not clamped: the curve is extended below 0 and above 1.
 pub fn srgb_encode(linear: f32) -> f32 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 
-/// The linear value that [`srgb_encode`] takes to `encoded`.
+/// The linear value of an sRGB-encoded one: the inverse of [`srgb_encode`].
 pub fn srgb_decode(encoded: f32) -> f32 {
     if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
-/// The nearest of the 256 levels of an sRGB image: everything up to 0 (and NaN) is level 0, everything
-/// from 1 (and infinity) is level 255.
+/// The 8-bit sRGB level of a linear value, clamped to 0 and 255. NaN gives 0.
 pub fn linear_to_srgb_u8(linear: f32) -> u8 {
     (srgb_encode(linear) * 255.0).round() as u8
 }
 
-/// The linear value of one of the 256 levels of an sRGB image.
+/// The linear value of an 8-bit sRGB level.
 pub fn srgb_to_linear_u8(level: u8) -> f32 {
-    // Textures ask for this at every look-up, and there are only so many answers.
+    // Used in every texture lookup, hence the table.
     static LINEAR: LazyLock<[f32; 256]> =
         LazyLock::new(|| std::array::from_fn(|level| srgb_decode(level as f32 / 255.0)));
     LINEAR[usize::from(level)]
 }
 
-/// The factor of an exposure in stops (EV): each stop doubles the brightness.
+/// The factor of an exposure in stops (EV): 2 per stop.
 pub fn exposure_factor(stops: f32) -> f32 {
     stops.exp2()
 }

@@ -1,4 +1,4 @@
-//! Reading YAML: the only module that knows which crate does it.
+//! YAML files. The only module that depends on a YAML crate.
 
 use std::path::Path;
 
@@ -7,23 +7,23 @@ use serde::de::DeserializeOwned;
 use crate::diagnostic::Diagnostic;
 use crate::input;
 
-/// More than any file written by hand or by a script needs.
+/// Maximum file size, more than any reasonable file needs.
 const MAX_BYTES: u64 = 4 << 20;
 
-/// Far deeper than any of our formats goes. The parser's time grows with the square of the depth.
+/// Maximum nesting depth, far more than any format here needs. The parser takes quadratic time in the depth.
 const MAX_DEPTH: usize = 256;
 
-/// Reads a file of at most 4 MiB; returns its text too.
+/// Reads a file of at most 4 MiB. Returns the value and the text of the file.
 ///
 /// # Errors
-/// The first thing in it that is not what `T` expects, with the line.
+/// If the file cannot be read, or the first mismatch with `T`, with its line.
 pub fn read<T: DeserializeOwned>(path: &Path) -> Result<(T, String), Diagnostic> {
     let text = input::read(path, MAX_BYTES, None)?;
     if text.lines().all(|line| line.trim().is_empty() || line.starts_with('#')) {
         return Err(Diagnostic::about(path, "is empty"));
     }
     if let Some(line) = line_nested_too_deeply(&text) {
-        return Err(Diagnostic::at(path, line, "too many brackets are open; no more than a few are needed"));
+        return Err(Diagnostic::at(path, line, "brackets are nested too deeply"));
     }
     match serde_yaml::from_str(&text) {
         Ok(value) => Ok((value, text)),
@@ -38,12 +38,12 @@ fn diagnostic(path: &Path, text: &str, error: &serde_yaml::Error) -> Diagnostic 
     let line = line_to_blame(text, &message, location.line());
     let words = text.lines().nth(line - 1).unwrap_or_default().trim_start_matches(' ');
     if words.starts_with('\t') {
-        message.push_str("; lines must be indented with spaces, not with a tab");
+        message.push_str("; use spaces instead of tabs for indentation");
     }
     Diagnostic::at(path, line, shortened(&message))
 }
 
-/// The message without most of a very long value that it quotes.
+/// The message, shortened in the middle if it quotes a very long value.
 fn shortened(message: &str) -> String {
     const KEPT: usize = 200;
     if message.chars().nth(2 * KEPT).is_none() {
@@ -54,8 +54,8 @@ fn shortened(message: &str) -> String {
     start.iter().chain(&['…']).chain(end).collect()
 }
 
-/// The line of what a message is about, where the parser gives another one: for unknown tags and for keys that
-/// are there twice it gives the start of the list or mapping, for forbidden characters it gives their offset.
+/// The line of an error, where the parser reports a different one: for unknown tags and duplicate keys it reports the
+/// start of the list or mapping, for forbidden characters their offset.
 fn line_to_blame(text: &str, message: &str, given: usize) -> usize {
     let quoted = message.split('`').nth(1);
     let nth_line = |word: String, nth: usize| {
@@ -74,9 +74,9 @@ fn line_to_blame(text: &str, message: &str, given: usize) -> usize {
     found.unwrap_or(given).max(1)
 }
 
-/// The line in which more brackets are open than [`MAX_DEPTH`].
+/// The line where brackets are nested more deeply than [`MAX_DEPTH`].
 ///
-/// Brackets in comments and quotes count too: this is a guard, not a parser.
+/// Brackets in comments and quotes count, too: this is a guard, not a parser.
 fn line_nested_too_deeply(text: &str) -> Option<usize> {
     let mut depth = 0_usize;
     let mut line = 1;

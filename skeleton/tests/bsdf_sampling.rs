@@ -1,11 +1,11 @@
-//! Directions drawn from BSDFs, against the densities that they claim.
+//! BSDF samples agree with the density of the BSDF.
 //!
 //! For every material, viewer and shading normal below: a χ² test of samples in bins around the mirror direction
-//! against the integral of `pdf` over each bin; samples that came out as `None` and delta samples are bins too, so
-//! that the share of `None` is held to 1 − ∫ pdf − (share of deltas).
+//! against the integral of `pdf` over each bin. `None` and delta samples have bins of their own, so that the frequency of
+//! `None` is tested against 1 − ∫ pdf − (probability of delta samples).
 //!
 //! 88 tests at 1e-6 each: a correct program fails with a probability below 1e-4 (seeds are fixed). With 150,000
-//! samples in 258 bins, a density that is wrong by 3 % (root mean square over the bins) is seen.
+//! samples in 258 bins, a density that is wrong by 3 % (root mean square over the bins) is detected.
 
 mod common;
 
@@ -20,7 +20,7 @@ const ALPHA: f64 = 1e-6;
 const SAMPLES: u64 = 150_000;
 const RINGS: usize = 16;
 const SECTORS: usize = 16;
-/// Midpoints a side in each bin.
+/// Midpoints per side of each bin.
 const STEPS: usize = 24;
 
 fn materials() -> Vec<(&'static str, Material)> {
@@ -47,14 +47,14 @@ fn materials() -> Vec<(&'static str, Material)> {
     ]
 }
 
-/// The expected share of each bin, by quadrature, and the counts of samples.
+/// The expected frequency of each bin, by quadrature, and the numbers of samples.
 struct Comparison {
     expected: Vec<f64>,
     observed: Vec<u64>,
 }
 
 impl Comparison {
-    /// `density` is what the samples are held against: the BSDF's own `pdf`, but for tests of the test.
+    /// `density` is the density under test: the BSDF's `pdf`, except in tests of the test.
     fn new(it: &Surface, seed: u64, density: impl Fn(Vec3) -> f64) -> Self {
         let (normal, wo) = (it.normal.as_dvec3(), it.wo.as_dvec3());
         let polar = Polar::around(2.0 * normal.dot(wo) * normal - wo);
@@ -88,7 +88,7 @@ impl Comparison {
             observed[bin] += 1;
         }
         let nothing = 1.0 - smooth - delta_probability;
-        // The quadrature's own error; a density above it would be no density.
+        // Up to the quadrature error; a larger integral would not be a density.
         assert!(nothing > -1e-3, "the density integrates to {}", 1.0 - nothing);
         expected.extend([nothing.max(0.0), delta_probability]);
         Self { expected: expected.into_iter().map(|share| share * SAMPLES as f64).collect(), observed }
@@ -99,7 +99,7 @@ impl Comparison {
     }
 }
 
-/// Bounds of 1 − cos α between which samples are about equally frequent, from a few samples of another seed.
+/// Bounds of 1 − cos α between which samples are about equally frequent, from samples with another seed.
 fn ring_bounds(it: &Surface, polar: &Polar) -> Vec<f64> {
     let mut sampler = Sampler::new(999, (0, 0), 0);
     let mut ts: Vec<f64> = (0..4000)
@@ -133,27 +133,27 @@ fn samples_follow_the_density(shading_normal: Option<Vec3>) {
 }
 
 #[test]
-fn samples_follow_the_density_on_flat_surfaces() {
+fn samples_agree_with_the_density_for_flat_shading() {
     samples_follow_the_density(None);
 }
 
 #[test]
-fn samples_follow_the_density_with_tilted_shading_normals() {
+fn samples_agree_with_the_density_for_tilted_shading_normals() {
     samples_follow_the_density(Some(tilted(25.0, 1.3)));
 }
 
 #[test]
-fn nothing_is_lost_where_the_whole_lobe_is_above_the_horizon() {
+fn no_sample_is_lost_if_the_whole_lobe_is_above_the_horizon() {
     for (material, theta) in [(diffuse(0.5), 70.0), (phong(0.5, 1000.0), 0.0), (phong(0.5, 1e5), 80.0)] {
         let plate = plate(material, None);
         let it = surface(&plate, tilted(theta, 0.3));
         let mut sampler = Sampler::new(77, (0, 0), 0);
-        // A diffuse direction that rounds down to the horizon comes up once in 10⁷ samples.
+        // One in 10⁷ diffuse directions is rounded down to the horizon.
         assert!((0..100_000).all(|_| it.bsdf.sample(&mut sampler).is_some()));
     }
 }
 
-/// The tests above must be able to fail.
+/// The tests above can fail.
 #[test]
 fn wrong_densities_are_rejected() {
     let cosine = plate(diffuse(0.5), None);
@@ -172,7 +172,7 @@ fn wrong_densities_are_rejected() {
         Comparison::new(&it, 2, |wi| pdf(0.60, wi)).p_value() < ALPHA,
         "lobes picked with another probability"
     );
-    // The part of a lobe that is below the horizon, spread over the rest: 14 % too much.
+    // The part of a lobe below the horizon, distributed over the rest: 14 % too much.
     let lobe = surface(&plate(phong(0.3, 20.0), None), tilted(70.0, 0.3));
     let kept = Comparison::new(&lobe, 3, |wi| f64::from(lobe.bsdf.pdf(wi)));
     let share = kept.expected[..RINGS * SECTORS].iter().sum::<f64>() / SAMPLES as f64;

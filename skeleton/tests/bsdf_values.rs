@@ -1,4 +1,4 @@
-//! What BSDFs are worth: samples against separate calls, reciprocity, energy, and the promises of the documentation.
+//! Values of BSDFs: consistency of samples, reciprocity, energy conservation, documented properties.
 //!
 //! Statistical tests: 36 estimates of the albedo at 1e-6 each; a correct program fails with a probability below 4e-5.
 
@@ -50,7 +50,7 @@ fn albedo(it: &Surface, steps: usize) -> f64 {
 }
 
 #[test]
-fn samples_agree_with_separate_calls_and_keep_what_the_documentation_promises() {
+fn samples_agree_with_eval_and_pdf_and_have_the_documented_properties() {
     let mut seen = 0;
     for material in all_materials() {
         for normal in all_normals() {
@@ -65,8 +65,8 @@ fn samples_agree_with_separate_calls_and_keep_what_the_documentation_promises() 
                     assert!(sample.f.is_finite() && sample.f.min_channel() >= 0.0, "{}", context());
                     assert!(sample.pdf.is_finite() && sample.pdf > 0.0, "{}", context());
                     assert_eq!(sample.cos, it.normal.dot(sample.wi).abs(), "{}", context());
-                    // The weight of a path: never more than the lobe can reflect (n + 2) / (n + 1) times over, a
-                    // squared index ratio, or the reciprocal of the least probability of a lobe.
+                    // f · cos / pdf is bounded by (n + 2) / (n + 1) times the reflectance, the squared index ratio, or the
+                    // reciprocal of the minimum selection probability of a lobe.
                     let weight = sample.f * (sample.cos / sample.pdf);
                     assert!(weight.is_finite() && weight.max_channel() < 20.0, "{}", context());
                     if sample.is_delta {
@@ -86,7 +86,7 @@ fn samples_agree_with_separate_calls_and_keep_what_the_documentation_promises() 
 }
 
 #[test]
-fn nothing_is_reflected_from_below_either_horizon_nor_by_deltas() {
+fn eval_and_pdf_are_zero_below_either_horizon_and_for_delta_lobes() {
     for material in all_materials() {
         for normal in all_normals() {
             let plate = plate(material.clone(), normal);
@@ -106,7 +106,7 @@ fn nothing_is_reflected_from_below_either_horizon_nor_by_deltas() {
 }
 
 #[test]
-fn only_materials_of_delta_lobes_alone_are_deltas() {
+fn is_delta_is_true_for_purely_specular_materials_only() {
     let is_delta = |material| surface(&plate(material, None), tilted(40.0, 0.3)).bsdf.is_delta();
     assert!(is_delta(mirror(0.5)) && is_delta(glass(1.5)));
     assert!(!is_delta(diffuse(0.5)) && !is_delta(phong(0.5, 1e9)) && !is_delta(mixed(0.5, 0.5, 5.0)));
@@ -115,13 +115,13 @@ fn only_materials_of_delta_lobes_alone_are_deltas() {
 }
 
 #[test]
-fn nothing_is_drawn_from_black() {
+fn black_materials_are_never_sampled() {
     let mut sampler = Sampler::new(5, (0, 0), 0);
     for material in [black(), phong(0.0, 20.0), mirror(0.0)] {
         let it = surface(&plate(material, None), tilted(40.0, 0.3));
         assert!((0..1000).all(|_| it.bsdf.sample(&mut sampler).is_none()));
     }
-    // A black second lobe takes no samples away from the first.
+    // A black second lobe wastes no samples.
     for specular in [
         Specular::Phong { reflectance: Rgb::BLACK, exponent: 20.0 },
         Specular::Mirror { reflectance: Rgb::BLACK },
@@ -140,7 +140,7 @@ fn reflection_is_reciprocal() {
         (diffuse(0.5), 1e-6),
         (phong(0.5, 1.0), 1e-5),
         (phong(0.5, 20.0), 1e-5),
-        // n times the error of an angle of n^-1/2: a rounding of 1e-7 grows with the root of the exponent.
+        // The error of cosⁿ near an angle of n^-1/2: a rounding of 1e-7 grows with the square root of n.
         (phong(0.5, 1e3), 1e-4),
         (phong(0.5, 1e5), 1e-3),
         (mixed(0.3, 0.5, 100.0), 1e-4),
@@ -150,9 +150,9 @@ fn reflection_is_reciprocal() {
         for wo in all_viewers() {
             let there = surface(&plate, wo);
             let mut sampler = Sampler::new(6, (0, 0), 0);
-            // Directions drawn from the lobe, so that narrow ones are met.
+            // Sampled from the lobe, so that narrow lobes are covered.
             for sample in (0..200).filter_map(|_| there.bsdf.sample(&mut sampler)) {
-                // A viewer so low that a rounding changes the angle is left out.
+                // Near grazing angles rounding changes the result.
                 if sample.wi.z < 1e-3 {
                     continue;
                 }
@@ -167,13 +167,13 @@ fn reflection_is_reciprocal() {
 }
 
 #[test]
-fn no_material_reflects_more_than_it_receives() {
+fn all_materials_conserve_energy() {
     for material in [0.0, 0.5, 1.0, 5.0, 20.0, 1e3, 1e5].map(|exponent| phong(1.0, exponent)) {
         for normal in all_normals() {
             let plate = plate(material.clone(), normal);
             for theta in (0..=89).step_by(11) {
                 let albedo = albedo(&surface(&plate, tilted(theta as f32, 0.3)), 64);
-                // The quadrature meets the horizon to a few parts in 10⁴.
+                // The quadrature error at the horizon is a few parts in 10⁴.
                 assert!((0.0..1.0 + 1e-3).contains(&albedo), "{material:?}, {normal:?}, {theta}°: {albedo}");
             }
         }
@@ -181,13 +181,13 @@ fn no_material_reflects_more_than_it_receives() {
 }
 
 #[test]
-fn albedos_have_their_closed_forms() {
-    // Diffuse: ρ, from everywhere.
+fn albedos_agree_with_closed_forms() {
+    // Diffuse: ρ, from all directions.
     for theta in [0.0, 45.0, 85.0] {
         let it = surface(&plate(diffuse(0.6), None), tilted(theta, 0.3));
         assert!((albedo(&it, 128) - 0.6).abs() < 1e-3);
     }
-    // Phong: ks along the normal, for every exponent.
+    // Phong: ks at normal incidence, for all exponents.
     for exponent in [0.0, 1.0, 20.0, 1e3, 1e5, 1e6] {
         let it = surface(&plate(phong(0.6, exponent), None), Vec3::Z);
         let albedo = albedo(&it, 128);
@@ -227,7 +227,7 @@ fn the_mean_weight_of_samples_is_the_albedo() {
                         .sample(&mut sampler)
                         .map_or(0.0, |sample| f64::from(sample.f.g * sample.cos / sample.pdf))
                 });
-                // The quadrature's error at the horizon counts as rounding.
+                // The quadrature error at the horizon counts as rounding.
                 let what = format!("{material:?}, {normal:?}, {theta}°");
                 let weights = Estimate::of(weights);
                 weights.assert_is(albedo(&it, 128), 2e-3, 0.03, ALPHA, &what);
@@ -237,7 +237,7 @@ fn the_mean_weight_of_samples_is_the_albedo() {
 }
 
 #[test]
-fn mirrors_reflect_their_share_into_the_one_direction() {
+fn mirrors_reflect_their_reflectance_in_the_mirror_direction() {
     for theta in [0.0, 45.0, 85.0, 89.5] {
         let wo = tilted(theta, 0.3);
         let it = surface(&plate(mirror(0.7), None), wo);

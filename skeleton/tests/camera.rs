@@ -1,4 +1,4 @@
-//! Where the camera looks.
+//! The camera.
 
 mod common;
 
@@ -11,7 +11,7 @@ fn description(eye: Vec3, center: Vec3, up: Vec3) -> CameraDescription {
 }
 
 #[test]
-fn the_centre_is_in_the_middle_and_up_is_up() {
+fn the_centre_is_in_the_middle_of_the_image_and_up_is_up() {
     for (eye, center, up) in [
         (Vec3::ZERO, Vec3::NEG_Z, Vec3::Y),
         (Vec3::new(1.0, -2.0, 3.0), Vec3::new(-4.0, 5.0, 6.0), Vec3::new(1.0, 1.0, 0.0)),
@@ -24,13 +24,13 @@ fn the_centre_is_in_the_middle_and_up_is_up() {
         let (up_in_image, right) = (at(15, 0) - at(15, 20), at(30, 10) - at(0, 10));
         assert!(up_in_image.dot(up) > 0.0 && up_in_image.dot(forward).abs() < 1e-6);
         assert!(right.dot(up).abs() < 1e-5 && right.dot(forward).abs() < 1e-6);
-        // Right-handed: right × up looks back at the viewer.
+        // Right-handed: right × up points back to the viewer.
         assert!(right.cross(up_in_image).dot(forward) < 0.0);
     }
 }
 
 #[test]
-fn the_length_of_up_does_not_matter() {
+fn the_length_of_up_has_no_effect() {
     let ray = |length: f32| {
         let up = length * Vec3::new(0.2, 1.0, 0.1);
         Camera::new(&description(Vec3::ONE, Vec3::ZERO, up), 8, 6).ray(1, 2, (0.3, 0.4)).direction
@@ -41,7 +41,7 @@ fn the_length_of_up_does_not_matter() {
 }
 
 #[test]
-fn pixels_are_square_and_their_edges_meet() {
+fn pixels_are_square_and_adjacent() {
     let camera = Camera::new(&description(Vec3::ZERO, Vec3::NEG_Z, Vec3::Y), 31, 17);
     let on_plane = |x, y, place| {
         let direction = camera.ray(x, y, place).direction;

@@ -252,9 +252,9 @@ fn errors_are_reported_before_rendering() {
         ("scene.yml -s 999999999 -o x.jpg", "error: invalid value 'x.jpg'"),
         (
             "scene.yml -s 999999999 -o missing/x.png",
-            "error: missing/x.png: cannot be written: there is no folder",
+            "error: missing/x.png: cannot be written: no such folder",
         ),
-        ("scene.yml -s 999999999 -o folder.png", "error: folder.png: cannot be written: this is a folder"),
+        ("scene.yml -s 999999999 -o folder.png", "error: folder.png: cannot be written: it is a folder"),
         ("scene.yml -s 999999999 -o ok.png -o missing/x.exr", "error: missing/x.exr: cannot be written"),
         ("scene.yml -s 999999999 --width=65536 --height=65536", "error: 65536 x 65536 pixels are too many"),
         ("broken.yml -s 999999999", "error: broken.yml:2: "),
@@ -276,7 +276,7 @@ fn an_unreachable_viewer_gives_one_warning() {
     let folder = Folder::new();
     // Port 1 is privileged, and nothing listens there.
     let run = folder.render("scene.yml -t 1.5 --tev=127.0.0.1:1 --quiet");
-    assert_eq!(run.stderr.matches("warning: the tev viewer at 127.0.0.1:1 cannot be reached").count(), 1);
+    assert_eq!(run.stderr.matches("warning: cannot reach the tev viewer at 127.0.0.1:1").count(), 1);
     assert_eq!(run.stderr.lines().count(), 1);
     assert_eq!(folder.files(), ["scene.png"]);
 }

@@ -1,4 +1,4 @@
-//! What scenes are found to have, and whether they are closed.
+//! Features of scenes, and whether they are closed.
 
 mod common;
 
@@ -20,7 +20,7 @@ const LOW: Vec3 = Vec3::new(-1.0, -2.0, -3.0);
 const HIGH: Vec3 = Vec3::new(1.5, 1.0, 2.0);
 
 #[test]
-fn an_empty_scene_has_nothing() {
+fn an_empty_scene_has_no_features() {
     let features = features(&empty());
     assert_eq!((features.triangles, features.area_lights, features.point_lights), (0, 0, 0));
     assert!(!features.closed && !features.hierarchy && !features.has_lights());
@@ -68,7 +68,7 @@ fn each_kind_of_surface_and_light_is_counted() {
 }
 
 #[test]
-fn textures_and_normals_count_where_they_are_used() {
+fn textures_and_normals_are_counted_where_they_are_used() {
     let mut scene = with(&quad(Vec3::NEG_Z, Vec3::X, Vec3::Y), diffuse(0.5));
     scene.textures.push(Texture { width: 1, height: 1, texels: vec![[255; 3]] });
     scene.materials[0].diffuse_map = Some(0);
@@ -80,7 +80,7 @@ fn textures_and_normals_count_where_they_are_used() {
 }
 
 #[test]
-fn a_room_is_closed_and_a_room_with_a_hole_is_not() {
+fn a_room_is_closed_unless_it_has_a_hole() {
     let walls = room(LOW, HIGH);
     assert!(features(&with(&walls, diffuse(0.5))).closed);
     for left_out in 0..walls.len() {
@@ -95,7 +95,7 @@ fn a_room_is_closed_and_a_room_with_a_hole_is_not() {
 }
 
 #[test]
-fn a_room_is_closed_by_lights_and_by_parts_of_several_materials() {
+fn a_room_can_be_closed_by_lights_and_several_materials() {
     let walls = room(LOW, HIGH);
     let mut scene = with(&walls[..7], diffuse(0.5));
     add(&mut scene, &walls[7..10], mirror(0.9));
@@ -104,7 +104,7 @@ fn a_room_is_closed_by_lights_and_by_parts_of_several_materials() {
 }
 
 #[test]
-fn glass_encloses_nothing() {
+fn glass_does_not_enclose_the_camera() {
     let ball = icosphere(Vec3::ZERO, 1.0, 1, true);
     assert!(!features(&with(&ball, glass(1.5))).closed);
     let opaque = Specular::Glass { index: 1.5, reflectance: Rgb::BLACK, transmittance: Rgb::BLACK };
@@ -116,7 +116,7 @@ fn glass_encloses_nothing() {
 }
 
 #[test]
-fn triangles_without_area_are_left_out_with_a_warning() {
+fn triangles_without_an_area_are_ignored_with_a_warning() {
     let mut scene = with(&quad(Vec3::NEG_Z, Vec3::X, Vec3::Y), diffuse(0.5));
     add(&mut scene, &[[Vec3::ZERO, Vec3::X, 2.0 * Vec3::X], [Vec3::ONE; 3], [Vec3::NAN; 3]], diffuse(0.5));
     let scene = Scene::new(&scene);
@@ -125,14 +125,14 @@ fn triangles_without_area_are_left_out_with_a_warning() {
 }
 
 #[test]
-fn a_scene_beyond_the_measured_sizes_and_offsets_says_so() {
+fn scenes_outside_the_reliable_sizes_and_offsets_give_a_warning() {
     let warnings = |size: f32, offset: f32| {
         let corner = Vec3::splat(offset);
         Scene::new(&with(&quad(corner, size * Vec3::X, size * Vec3::Y), diffuse(0.5))).warnings().to_vec()
     };
     assert!(warnings(1.0, 0.0).is_empty());
     assert!(warnings(1.0, 500.0).is_empty());
-    assert!(warnings(1.0, 2000.0)[0].contains("from the origin"));
-    assert!(warnings(1e-5, 0.0)[0].contains("units large"));
-    assert!(warnings(1e6, 0.0)[0].contains("units large"));
+    assert!(warnings(1.0, 2000.0)[0].contains("away from the origin"));
+    assert!(warnings(1e-5, 0.0)[0].contains("has a size of"));
+    assert!(warnings(1e6, 0.0)[0].contains("has a size of"));
 }

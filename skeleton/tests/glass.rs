@@ -1,6 +1,6 @@
-//! Glass against the laws of Fresnel and Snell, in double precision and from their textbook forms.
+//! Glass obeys the laws of Fresnel and Snell, in double precision and their textbook forms.
 //!
-//! Statistical tests: 17 shares at 1e-6 each; a correct program fails with a probability below 2e-5.
+//! Statistical tests: 17 frequencies at 1e-6 each; a correct program fails with a probability below 2e-5.
 
 mod common;
 
@@ -14,8 +14,7 @@ use common::statistics::share;
 const ALPHA: f64 = 1e-6;
 const SAMPLES: u64 = 20_000;
 
-/// The angle of refraction and the reflectance for unpolarised light that meets a medium of index `n2` from one of
-/// index `n1` (Hecht, "Optics", 4.6: r⊥ = −sin(θi − θt) / sin(θi + θt), r∥ = tan(θi − θt) / tan(θi + θt)).
+/// Angle of refraction and reflectance for unpolarized light from a medium of index `n1` into one of index `n2` (Hecht, "Optics", 4.6: r⊥ = −sin(θi − θt) / sin(θi + θt), r∥ = tan(θi − θt) / tan(θi + θt)).
 fn fresnel(theta: f64, n1: f64, n2: f64) -> Option<(f64, f64)> {
     let sin_t = n1 / n2 * theta.sin();
     if sin_t >= 1.0 {
@@ -45,7 +44,7 @@ fn weight(sample: &BsdfSample) -> f64 {
 }
 
 #[test]
-fn light_is_shared_by_fresnels_law_and_bent_by_snells() {
+fn reflectance_obeys_fresnels_law_and_refraction_snells() {
     for index in [1.33, 1.5] {
         for theta in [0.0, 20.0, 40.0, 60.0, 80.0] {
             for outside in [true, false] {
@@ -77,7 +76,7 @@ fn light_is_shared_by_fresnels_law_and_bent_by_snells() {
                 for sample in &refracted {
                     let wi = sample.wi.as_dvec3();
                     assert!((wi.truncate().length() - angle_t.sin()).abs() < 1e-6, "{context}: Snell, {wi}");
-                    // Straight on, seen from above: opposite to the viewer's azimuth.
+                    // In the plane of incidence: opposite to the viewer's azimuth.
                     if theta > 0.0 {
                         let azimuth = wi.y.atan2(wi.x) + std::f64::consts::PI;
                         assert!((azimuth - 0.3).abs() < 1e-5, "{context}: {azimuth}");
@@ -90,7 +89,7 @@ fn light_is_shared_by_fresnels_law_and_bent_by_snells() {
                         "{context}: {sample:?}"
                     );
                 }
-                // Together they reflect and let through everything, in terms of L / n².
+                // In terms of L / n², reflection and transmission sum to 1.
                 let pdf =
                     |samples: &[BsdfSample]| samples.first().map_or(0.0, |sample| f64::from(sample.pdf));
                 assert!((pdf(&reflected) + pdf(&refracted) - 1.0).abs() < 1e-5, "{context}");
@@ -100,16 +99,16 @@ fn light_is_shared_by_fresnels_law_and_bent_by_snells() {
 }
 
 #[test]
-fn the_critical_angle_is_where_sin_is_one_over_the_index() {
+fn the_sine_of_the_critical_angle_is_one_over_the_index() {
     let critical = (1.0f32 / 1.5).asin().to_degrees();
     assert!(!sample(1.5, critical - 0.1, false).1.is_empty());
     assert!(sample(1.5, critical + 0.1, false).1.is_empty());
 }
 
 #[test]
-fn a_way_through_the_surface_is_worth_the_same_both_ways() {
-    // Reciprocity of transmission: f(wo, wi) / n_i² = f(wi, wo) / n_o² (Veach 1997, 5.2). For deltas: the shares T of
-    // both ways are equal, and so the weights times the squared index ratio cancel.
+fn transmission_is_reciprocal() {
+    // Reciprocity of transmission: f(wo, wi) / n_i² = f(wi, wo) / n_o² (Veach 1997, 5.2). For delta lobes: the transmittances
+    // in both directions are equal, so that the squared index ratios of the weights cancel.
     for theta in [5.0, 30.0, 60.0, 85.0] {
         let there = sample(1.5, theta, true).1[0];
         let angle_t = (f64::from(theta).to_radians().sin() / 1.5).asin().to_degrees();
@@ -120,13 +119,13 @@ fn a_way_through_the_surface_is_worth_the_same_both_ways() {
 }
 
 #[test]
-fn a_camera_inside_sees_radiance_times_the_squared_index() {
+fn radiance_inside_glass_is_scaled_by_the_squared_index() {
     let (reflected, refracted) = sample(1.5, 0.0, false);
     assert!((weight(&refracted[0]) - 2.25).abs() < 1e-4 && (weight(&reflected[0]) - 1.0).abs() < 1e-5);
 }
 
 #[test]
-fn equal_indices_change_nothing() {
+fn equal_indices_have_no_effect() {
     for outside in [true, false] {
         let (reflected, refracted) = sample(1.0, 70.0, outside);
         assert!(reflected.is_empty());
@@ -135,7 +134,7 @@ fn equal_indices_change_nothing() {
 }
 
 #[test]
-fn factors_colour_what_is_reflected_and_what_is_let_through() {
+fn reflectance_and_transmittance_are_coloured_by_their_factors() {
     let (reflectance, transmittance) = (Rgb::new(0.1, 0.2, 0.3), Rgb::new(0.9, 0.8, 0.7));
     let material =
         Material { specular: Specular::Glass { index: 1.5, reflectance, transmittance }, ..black() };
@@ -151,13 +150,13 @@ fn factors_colour_what_is_reflected_and_what_is_let_through() {
     assert!(reflected > 0 && refracted > 0);
 }
 
-/// The tests above must be able to fail.
+/// The tests above can fail.
 #[test]
-fn a_wrong_share_is_rejected() {
+fn a_wrong_reflectance_is_rejected() {
     let (reflected, _) = sample(1.5, 60.0, true);
     let (_, exact) = fresnel(60f64.to_radians(), 1.0, 1.5).expect("light enters the denser side");
     assert!(share(reflected.len() as u64, SAMPLES, exact) > ALPHA);
-    // Schlick's approximation: 6.7 % in place of 8.9 %.
+    // Schlick's approximation: 6.7 % instead of 8.9 %.
     let schlick = 0.04 + 0.96 * 0.5f64.powi(5);
     assert!(share(reflected.len() as u64, SAMPLES, schlick) < ALPHA);
 }

@@ -1,5 +1,5 @@
-//! What lights promise: power, densities, cosines, where they shine and where not. No test here is statistical, but
-//! for sampled points that are checked one by one.
+//! Lights: power, densities, cosines, directions of emission. Sampled points are checked one by one; no test is
+//! statistical.
 
 mod common;
 
@@ -47,7 +47,7 @@ fn intensity(light: &Light, w: Vec3) -> f64 {
 }
 
 #[test]
-fn a_point_light_spreads_its_power_evenly() {
+fn a_point_light_emits_its_power_uniformly() {
     let scene = scene_of(LightDescription::Point { position: POSITION, power: POWER });
     let light = &scene.lights()[0];
     assert!((light.power() / POWER.luminance() - 1.0).abs() < 1e-6 && !light.has_area());
@@ -61,7 +61,7 @@ fn a_point_light_spreads_its_power_evenly() {
 }
 
 #[test]
-fn a_spot_light_sends_all_its_power_into_its_cone() {
+fn a_spot_light_emits_all_its_power_into_its_cone() {
     let power = f64::from(POWER.luminance());
     let polar = Polar::around(AXIS.as_dvec3());
     for (inner, outer) in [
@@ -74,7 +74,7 @@ fn a_spot_light_sends_all_its_power_into_its_cone() {
         (1.0, 2.0),
         (0.05, 0.1),
     ] {
-        // In the origin, where directions to points are exact.
+        // At the origin, where directions to points are exact.
         let (position, direction) = (Vec3::ZERO, AXIS);
         let scene = scene_of(LightDescription::Spot { position, direction, inner, outer, power: POWER });
         let light = &scene.lights()[0];
@@ -130,7 +130,7 @@ fn the_power_of_a_triangle_is_the_integral_of_its_intensity() {
 }
 
 #[test]
-fn points_on_a_triangle_come_with_their_density_and_cosine() {
+fn sampled_points_have_the_documented_density_and_cosine() {
     let scene = triangle();
     let (light, (normal, area)) = (&scene.lights()[0], normal_and_area());
     assert!(light.has_area() && light.index() == 0);
@@ -138,7 +138,7 @@ fn points_on_a_triangle_come_with_their_density_and_cosine() {
     for (w, _) in spiral(3000) {
         let from = TRIANGLE[0] + 5.0 * w;
         let sample = light.sample_direct(from, &mut sampler);
-        // The triangle is flat: it is seen either from its front or from its back as a whole.
+        // A triangle is seen either from its front or from its back as a whole.
         let side = normal.dot(from - TRIANGLE[0]);
         if side.abs() < 1e-4 {
             continue;
@@ -158,7 +158,7 @@ fn points_on_a_triangle_come_with_their_density_and_cosine() {
 }
 
 #[test]
-fn hitting_a_point_tells_the_same_as_drawing_it() {
+fn the_emission_of_a_hit_agrees_with_a_light_sample() {
     let scene = triangle();
     let light = &scene.lights()[0];
     let mut sampler = Sampler::new(3, (0, 0), 0);
@@ -166,7 +166,7 @@ fn hitting_a_point_tells_the_same_as_drawing_it() {
     for (w, _) in spiral(2000) {
         let from = TRIANGLE[1] + 3.0 * w;
         let Some(sample) = light.sample_direct(from, &mut sampler) else { continue };
-        // Along the surface and at its rim a rounding decides whether a ray hits.
+        // At grazing angles and near edges, rounding decides whether a ray hits.
         if sample.cos_light < 0.01 {
             continue;
         }
@@ -186,7 +186,7 @@ fn hitting_a_point_tells_the_same_as_drawing_it() {
 }
 
 #[test]
-fn lights_shine_from_their_front_only() {
+fn lights_emit_from_their_front_only() {
     let scene = triangle();
     let (normal, _) = normal_and_area();
     let middle = (TRIANGLE[0] + TRIANGLE[1] + TRIANGLE[2]) / 3.0;
@@ -201,7 +201,7 @@ fn lights_shine_from_their_front_only() {
 }
 
 #[test]
-fn a_light_of_a_mesh_reflects_too_and_comes_after_the_listed_ones() {
+fn an_emissive_mesh_reflects_and_its_lights_follow_the_explicit_ones() {
     let mut scene = empty();
     scene.lights.push(LightDescription::Point { position: Vec3::X, power: Rgb::WHITE });
     scene.lights.push(LightDescription::Triangle { vertices: TRIANGLE, radiance: Rgb::WHITE });
@@ -222,7 +222,7 @@ fn a_light_of_a_mesh_reflects_too_and_comes_after_the_listed_ones() {
 }
 
 #[test]
-fn lights_that_f32_cannot_measure_are_left_out_with_a_warning() {
+fn lights_with_unrepresentable_areas_are_ignored_with_a_warning() {
     let mut scene = empty();
     for size in [0.0, 1e-25, 1.0, 1e25] {
         let vertices = [Vec3::ZERO, size * Vec3::X, size * Vec3::Y];
@@ -256,7 +256,7 @@ fn doubled(second_faces_back: bool) -> Scene {
 }
 
 #[test]
-fn a_light_facing_both_ways_is_hit_and_sampled_from_both_sides() {
+fn a_two_sided_light_is_hit_and_sampled_from_both_sides() {
     let scene = doubled(true);
     assert_eq!(scene.lights().len(), 4);
     for (side, radiance) in [(1.0, 1.0), (-1.0, 2.0)] {
@@ -275,12 +275,12 @@ fn a_light_facing_both_ways_is_hit_and_sampled_from_both_sides() {
 }
 
 #[test]
-fn of_two_lights_in_the_same_place_only_the_one_that_can_be_hit_is_left() {
+fn of_two_duplicate_lights_only_the_one_that_rays_hit_is_kept() {
     let scene = doubled(false);
     assert_eq!(scene.lights().len(), 2);
     assert!(scene.lights().iter().enumerate().all(|(index, light)| light.index() == index));
     let hit = scene.intersect(&Ray::new(Vec3::new(0.3, 0.4, 1.0), Vec3::NEG_Z)).expect("the square is there");
     let emission = hit.emission().expect("it is a light");
     assert_eq!(emission.radiance, Rgb::WHITE);
-    assert!(scene.warnings()[0].contains("the first counts"));
+    assert!(scene.warnings()[0].contains("are ignored: "));
 }

@@ -1,4 +1,4 @@
-//! Random numbers: uniform, and independent between streams that stand side by side.
+//! Random numbers are uniform, and independent between neighbouring streams.
 //!
 //! Nineteen χ² tests at 1e-6 each: a correct program fails with a probability below 2e-5 (seeds are fixed).
 
@@ -22,13 +22,13 @@ fn assert_uniform(what: &str, pairs: impl Iterator<Item = (f64, f64)>) {
 }
 
 #[test]
-fn a_stream_is_uniform_and_its_neighbours_are_independent() {
+fn a_stream_is_uniform_and_its_consecutive_numbers_are_independent() {
     let mut sampler = Sampler::new(1, (2, 3), 4);
     assert_uniform("pairs", (0..COUNT).map(|_| sampler.next_2d()).map(|(u, v)| (u.into(), v.into())));
     for lag in [1, 2, 7] {
         let mut sampler = Sampler::new(lag as u64, (0, 0), 0);
         let numbers: Vec<f64> = (0..2 * COUNT).map(|_| sampler.next_1d().into()).collect();
-        // Pairs that share no number.
+        // Disjoint pairs.
         let pairs =
             numbers.chunks_exact(2 * lag).flat_map(|chunk| (0..lag).map(|i| (chunk[i], chunk[i + lag])));
         assert_uniform(&format!("lag {lag}"), pairs);
@@ -56,7 +56,7 @@ fn neighbouring_samples_pixels_seeds_and_batches_are_independent() {
 }
 
 #[test]
-fn numbers_are_below_one_and_fill_the_interval() {
+fn numbers_are_below_one_and_cover_the_interval() {
     let mut sampler = Sampler::new(3, (0, 0), 0);
     let (mut low, mut high) = (1.0f32, 0.0f32);
     for _ in 0..2_000_000 {
@@ -64,14 +64,14 @@ fn numbers_are_below_one_and_fill_the_interval() {
         assert!((0.0..1.0).contains(&number));
         (low, high) = (low.min(number), high.max(number));
     }
-    // Missing a hundred-thousandth at an end has a probability of e^-20.
+    // The probability of missing a hundred-thousandth at an end is e^-20.
     assert!(low < 1e-5 && high > 1.0 - 1e-5);
 }
 
-/// The tests above must be able to fail.
+/// The tests above can fail.
 #[test]
 fn shared_streams_are_rejected() {
-    // A stream for each x ^ y: pixels on a diagonal get the same numbers.
+    // One stream for each x ^ y: pixels on a diagonal share numbers.
     let stream = |x: u32, y: u32| Sampler::new(1, (x ^ y, 0), 0);
     let pairs = (0..COUNT as u32).map(|i| (nth(stream(i, i + 1), 0), nth(stream(i + 1, i), 0)));
     assert!(uniformity(CELLS, pairs) < 1e-12);

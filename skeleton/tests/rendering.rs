@@ -1,4 +1,4 @@
-//! From an integrator to an image: threads, passes, replay, anomalies, textures, settings, the camera.
+//! Rendering: threads, passes, replay, anomalies, textures, settings.
 
 mod common;
 #[path = "../src/algorithms/render_pt.rs"]
@@ -35,7 +35,7 @@ fn tracer(max_bounces: u32) -> PathTracer {
     PathTracer::new(Settings { technique: Technique::Bsdf, max_bounces })
 }
 
-/// Renders one pass after the other, each from one bound of the sample numbers to the next, in a pool of its own.
+/// Renders in passes between consecutive bounds of sample numbers, in a pool with the given number of threads.
 fn film(integrator: &dyn Integrator, scene: &Scene, threads: usize, bounds: &[u64], seed: u64) -> Film {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started");
     let mut film = Film::new(13, 7);
@@ -48,7 +48,7 @@ fn film(integrator: &dyn Integrator, scene: &Scene, threads: usize, bounds: &[u6
 }
 
 #[test]
-fn images_do_not_depend_on_threads_nor_on_passes() {
+fn images_do_not_depend_on_threads_or_passes() {
     let (scene, tracer) = (lit_room(), tracer(6));
     let expected = film(&tracer, &scene, 1, &[0, 12], SEED);
     assert_eq!(expected.samples(), 12);
@@ -66,7 +66,7 @@ fn images_do_not_depend_on_threads_nor_on_passes() {
 }
 
 #[test]
-fn any_path_can_be_computed_again() {
+fn any_path_can_be_replayed() {
     let (scene, tracer) = (lit_room(), tracer(6));
     let film = film(&tracer, &scene, 2, &[0, 4], SEED);
     let camera = scene.camera(13, 7);
@@ -79,7 +79,7 @@ fn any_path_can_be_computed_again() {
 }
 
 #[test]
-fn nothing_is_begun_after_a_stop() {
+fn no_pixel_is_started_after_a_stop() {
     let scene = lit_room();
     let mut film = Film::new(4, 4);
     render(&tracer(2), &scene, &mut film, 0..4, SEED, &AtomicBool::new(true));
@@ -88,7 +88,7 @@ fn nothing_is_begun_after_a_stop() {
 }
 
 #[test]
-fn films_without_pixels_are_rendered_in_no_time() {
+fn films_without_pixels_can_be_rendered() {
     for (width, height) in [(0, 0), (0, 3), (3, 0)] {
         let mut film = Film::new(width, height);
         render(&tracer(2), &lit_room(), &mut film, 0..4, SEED, &AtomicBool::new(false));
@@ -96,7 +96,7 @@ fn films_without_pixels_are_rendered_in_no_time() {
     }
 }
 
-/// Gives wrong values for a third of all samples.
+/// Returns anomalies for a third of all samples.
 struct Faulty;
 
 impl Integrator for Faulty {
@@ -111,7 +111,7 @@ impl Integrator for Faulty {
 }
 
 #[test]
-fn anomalies_are_counted_and_the_first_are_named_whatever_the_passes() {
+fn anomalies_are_counted_and_the_first_are_kept_for_any_passes() {
     let scene = Scene::new(&empty());
     let camera = scene.camera(13, 7);
     let mut all = Vec::new();
@@ -139,7 +139,7 @@ fn anomalies_are_counted_and_the_first_are_named_whatever_the_passes() {
 }
 
 #[test]
-fn textures_colour_the_diffuse_part() {
+fn textures_scale_the_diffuse_albedo() {
     let mut scene = empty();
     add(&mut scene, &quad(Vec3::new(-1.0, -1.0, -1.0), 2.0 * Vec3::X, 2.0 * Vec3::Y), diffuse(0.5));
     let texels = vec![[255, 0, 0], [0, 255, 0], [10, 100, 200], [255; 3]];
@@ -152,16 +152,16 @@ fn textures_colour_the_diffuse_part() {
         triangle.uvs = Some(triangle.positions);
     }
     let built = Scene::new(&scene);
-    // Texel centres: the upper row first.
+    // Texel centres, the upper row first.
     for (texel, (x, y)) in texels.iter().zip([(-0.5, 0.5), (0.5, 0.5), (-0.5, -0.5), (0.5, -0.5)]) {
-        // Beside the diagonal along which the square is cut.
+        // Off the diagonal between the two triangles.
         let hit =
             built.intersect(&Ray::new(Vec3::new(x, y, 0.0), Vec3::NEG_Z)).expect("the square is in the way");
         let expected = Rgb::from(texel.map(srgb_to_linear_u8)) * (0.5 / PI as f32);
         let error = (hit.bsdf().eval(Vec3::Z) - expected).map(f32::abs).max_channel();
         assert!(error < 1e-6, "({x}, {y}): {:?}, expected {expected:?}", hit.bsdf().eval(Vec3::Z));
     }
-    // Without coordinates everything has the colour at (0, 0): the mean of the four, as the texture repeats.
+    // Without texture coordinates, the value is that at (0, 0): the mean of all four texels, as the texture repeats.
     for triangle in &mut scene.meshes[0].triangles {
         triangle.uvs = None;
     }
@@ -174,7 +174,7 @@ fn textures_colour_the_diffuse_part() {
 }
 
 #[test]
-fn without_bounces_only_emitters_are_seen() {
+fn zero_bounces_show_emission_only() {
     let mut scene = empty();
     let square = quad(Vec3::new(-9.0, -9.0, -1.0), 18.0 * Vec3::X, 18.0 * Vec3::Y);
     add(&mut scene, &square, Material { emission: Rgb::new(1.0, 2.0, 3.0), ..diffuse(0.5) });
@@ -187,8 +187,8 @@ fn without_bounces_only_emitters_are_seen() {
 }
 
 #[test]
-fn each_bounce_adds_a_term_of_the_series() {
-    // In a closed room that glows evenly each bounce adds ρ times the one before, without noise for a diffuse BSDF.
+fn each_bounce_adds_a_term_of_the_geometric_series() {
+    // In a uniformly emitting closed room each bounce adds ρ times the previous one, without noise for a diffuse BSDF.
     let mut scene = empty();
     let walls = room(Vec3::new(-1.0, -1.0, -2.0), Vec3::new(1.0, 1.0, 1.0));
     add(&mut scene, &walls, Material { emission: Rgb::gray(1.0), ..diffuse(0.5) });
@@ -201,7 +201,7 @@ fn each_bounce_adds_a_term_of_the_series() {
 }
 
 #[test]
-fn techniques_have_names_that_are_read_back() {
+fn names_of_techniques_can_be_parsed() {
     for technique in Technique::ALL {
         assert_eq!(technique.name().parse(), Ok(technique));
     }

@@ -1,6 +1,6 @@
-//! Maps from random numbers to directions, against their densities.
+//! Sampling routines agree with their densities.
 //!
-//! Each map is inverted: if it has the density that it claims, the distribution function of what it gives is uniform.
+//! Each routine is inverted: if its density is correct, the distribution function of its results is uniform.
 //! Nine χ² tests at 1e-5 each: a correct program fails with a probability below 1e-4 (seeds are fixed).
 
 mod common;
@@ -26,14 +26,14 @@ fn turn(x: f32, y: f32) -> f64 {
 }
 
 #[test]
-fn the_disk_is_covered_evenly() {
+fn points_in_the_disk_are_uniform() {
     let points = numbers(1).map(warp::disk).map(|p| (p.as_dvec2().length_squared(), turn(p.x, p.y)));
     let p = uniformity(CELLS, points);
     assert!(p > ALPHA, "{p}");
 }
 
 #[test]
-fn the_hemisphere_is_covered_in_proportion_to_the_cosine() {
+fn directions_in_the_hemisphere_are_proportional_to_the_cosine() {
     // ∫ cos θ / π dω up to θ is sin² θ.
     let points = numbers(2).map(warp::cosine_hemisphere).map(|w| {
         assert!(w.z > 0.0 && (w.length() - 1.0).abs() < 1e-6, "{w}");
@@ -44,10 +44,10 @@ fn the_hemisphere_is_covered_in_proportion_to_the_cosine() {
 }
 
 #[test]
-fn lobes_follow_the_power_of_the_cosine() {
+fn directions_in_a_lobe_are_proportional_to_the_power_of_the_cosine() {
     let polar = Polar::around(glam::DVec3::Z);
     for (seed, exponent) in [(10, 0.0), (11, 1.0), (12, 10.0), (13, 1e3), (14, 1e6), (15, 1e9)] {
-        // ∫ (n + 1) / 2π cosⁿ α dω from α on is cosⁿ⁺¹ α.
+        // ∫ (n + 1) / 2π cosⁿ α dω beyond α is cosⁿ⁺¹ α.
         let points = numbers(seed).map(|u| warp::cosine_power(u, exponent)).map(|w| {
             assert!(w.z >= 0.0 && (w.length() - 1.0).abs() < 1e-6, "{w}");
             let (t, turn) = polar.coordinates(w);
@@ -59,11 +59,11 @@ fn lobes_follow_the_power_of_the_cosine() {
 }
 
 #[test]
-fn triangles_are_covered_evenly() {
+fn points_in_a_triangle_are_uniform() {
     let points = numbers(3).map(warp::triangle).map(|[b, c]| {
         assert!(b >= 0.0 && c >= 0.0 && b + c <= 1.0, "{b} {c}");
         let (b, c) = (f64::from(b), f64::from(c));
-        // The sum grows with the square root of the area below it, and divides evenly into b and c.
+        // The area below a sum of b and c is proportional to its square, and b is uniform for a given sum.
         ((b + c).powi(2), if b + c > 0.0 { c / (b + c) } else { 0.0 })
     });
     let p = uniformity(CELLS, points);
@@ -72,7 +72,7 @@ fn triangles_are_covered_evenly() {
 
 #[test]
 fn densities_of_directions_integrate_to_one() {
-    // 1 − cos α up to the horizon, where the densities end, that of exponent 0 with a jump.
+    // 1 − cos α up to the horizon, where the densities vanish, that of exponent 0 with a jump.
     const HEMISPHERE: (f64, f64) = (0.0, 1.0);
     let polar = Polar::around(glam::DVec3::Z);
     let cosine =
@@ -82,13 +82,13 @@ fn densities_of_directions_integrate_to_one() {
         let lobe = over_ring(&polar, HEMISPHERE, (0.0, 1.0), 128, &|w| {
             f64::from(warp::cosine_power_pdf(warp::power_of_cosine(Vec3::Z, w, exponent), exponent))
         });
-        // A rounding of a direction is an angle of 6e-8 rad; in the lobe of 1e6 that is 1e-4 of its width.
+        // The rounding of a direction is an angle of 6e-8 rad, 1e-4 of the width of the lobe with the exponent 1e6.
         assert!((lobe - 1.0).abs() < 5e-4, "exponent {exponent}: {lobe}");
     }
 }
 
 #[test]
-fn the_corners_of_the_unit_square_give_directions_too() {
+fn the_corners_of_the_unit_square_give_valid_directions() {
     let largest = 1.0 - f32::EPSILON / 2.0;
     for u in [0.0, 0.5, largest] {
         for v in [0.0, 0.5, largest] {
@@ -101,17 +101,17 @@ fn the_corners_of_the_unit_square_give_directions_too() {
     }
 }
 
-/// The tests above must be able to fail.
+/// The tests above can fail.
 #[test]
 fn wrong_densities_are_rejected() {
-    // Directions with the density of the cosine are not uniform over the hemisphere, where cos θ would be uniform.
+    // Cosine-weighted directions are not uniform over the hemisphere, for which cos θ would be uniform.
     let cosine = numbers(4).map(warp::cosine_hemisphere).map(|w| (f64::from(w.z), turn(w.x, w.y)));
     assert!(uniformity(CELLS, cosine) < 1e-12);
-    // An exponent that is wrong by a tenth (one by a fiftieth would escape these 576 cells).
+    // An exponent that is wrong by 10 % (2 % would not be detected with these 576 cells).
     let lobe =
         numbers(5).map(|u| warp::cosine_power(u, 50.0)).map(|w| (f64::from(w.z).powf(56.0), turn(w.x, w.y)));
     assert!(uniformity(CELLS, lobe) < ALPHA);
-    // The square's lower half as a triangle, without folding: right support, wrong density.
+    // The square's lower half as a triangle, without folding: correct support, wrong density.
     let triangle = numbers(6).map(|(u, v)| (f64::from(u), f64::from(u * v)));
     let points = triangle.map(|(b, c)| (b.powi(2), if b > 0.0 { c / b } else { 0.0 }));
     assert!(uniformity(CELLS, points) < 1e-12);

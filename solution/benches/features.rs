@@ -1,10 +1,10 @@
-//! What features cost, where a scene has them and where it has not: the Cornell box with and without each.
+//! Run-time cost of features: the Cornell box with and without each of them.
 //!
-//! `cargo bench -q -p solution --bench features > solution/benches/features.md` writes the committed table. All times
-//! are ratios to the plain box, taken in turns within one run; medians of rounds, on one thread.
+//! `cargo bench -q -p solution --bench features > solution/benches/features.md` writes the committed table. Times are
+//! relative to the plain box: interleaved within one run, medians over rounds, on one thread.
 
 #[path = "../src/algorithms/render_pt.rs"]
-#[allow(unreachable_pub)] // what it defines is used by a program there, and by nobody here
+#[allow(unreachable_pub)] // its items are used by the program it belongs to, not here
 mod render_pt;
 
 use std::path::Path;
@@ -27,7 +27,7 @@ const SAMPLES: u64 = 4;
 const MAX_BOUNCES: u32 = 8;
 const ROUNDS: usize = 41;
 
-/// Gives a feature to the material, and to what stands for it in the meshes.
+/// Adds a feature to the material and to the meshes.
 type Feature = fn(&mut SceneDescription, usize);
 
 const FEATURES: [(&str, Feature); 5] = [
@@ -62,7 +62,7 @@ const FEATURES: [(&str, Feature); 5] = [
     }),
 ];
 
-/// Does something to each triangle of a material, told its corners.
+/// Modifies each triangle of a material, given its vertices.
 fn each_of(mesh: &mut Mesh, material: usize, mut change: impl FnMut(&mut MeshTriangle, [Vec3; 3])) {
     let Mesh { positions, triangles, .. } = mesh;
     for triangle in triangles.iter_mut().filter(|triangle| triangle.material as usize == material) {
@@ -70,7 +70,7 @@ fn each_of(mesh: &mut Mesh, material: usize, mut change: impl FnMut(&mut MeshTri
     }
 }
 
-/// The box, with a material of one triangle behind its back wall that no path meets.
+/// The box, with an additional material on a triangle behind the back wall that no path reaches.
 fn plain() -> SceneDescription {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
     let mut scene = file::load(&scenes.join("cornell_box.yml")).expect("the scene is there").description;
@@ -89,7 +89,7 @@ fn plain() -> SceneDescription {
     scene
 }
 
-/// The scenes beside the plain one, each with its name in the table.
+/// The variants of the plain scene, with their names in the table.
 fn variants() -> Vec<(String, SceneDescription)> {
     let plain = plain();
     let blocks = plain.materials.iter().position(|material| material.name == "blocks");
@@ -118,7 +118,7 @@ fn variants() -> Vec<(String, SceneDescription)> {
     variants
 }
 
-/// Cuts each triangle into four.
+/// Divides each triangle into four.
 fn split(mesh: &mut Mesh) {
     let mut triangles = Vec::new();
     for triangle in std::mem::take(&mut mesh.triangles) {

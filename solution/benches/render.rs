@@ -1,10 +1,9 @@
-//! How many samples a second the filled-in path tracer takes: by scene and technique on one thread, and how much
-//! faster two threads are.
+//! Samples per second of the solution, by scene and technique on one thread, and the speedup of two threads.
 //!
-//! `cargo bench -p solution`. Throughput is in elements, that is samples of pixels, a second.
+//! `cargo bench -p solution`. Throughput is in elements per second; elements are pixel samples.
 
 #[path = "../src/algorithms/render_pt.rs"]
-#[allow(unreachable_pub)] // what it defines is used by a program there, and by nobody here
+#[allow(unreachable_pub)] // its items are used by the program it belongs to, not here
 mod render_pt;
 
 use std::path::Path;
@@ -23,7 +22,7 @@ const WIDTH: u32 = 128;
 const HEIGHT: u32 = 103;
 const MAX_BOUNCES: u32 = 8;
 
-/// Rounds of one thread against two, in turns.
+/// Interleaved rounds of one and two threads.
 const ROUNDS: usize = 9;
 
 fn load(name: &str) -> Scene {
@@ -58,8 +57,7 @@ fn samples(criterion: &mut Criterion) {
     }
 }
 
-/// Prints the ratio of the times that one thread and two take. It is taken within one run and in turns, so that
-/// whatever else the machine does slows down both.
+/// Prints the speedup of two threads over one. The measurements are interleaved, so that other load affects both.
 fn scaling(_: &mut Criterion) {
     let scene = load("cornell_box");
     let (one, two) = (pool(1), pool(2));
@@ -70,7 +68,7 @@ fn scaling(_: &mut Criterion) {
     };
     let mut ratios: Vec<f64> = (0..ROUNDS).map(|_| seconds(&one) / seconds(&two)).collect();
     ratios.sort_by(f64::total_cmp);
-    println!("two threads are {:.2} times as fast as one", ratios[ROUNDS / 2]);
+    println!("speedup of two threads: {:.2}", ratios[ROUNDS / 2]);
 }
 
 criterion_group!(benches, samples, scaling);

@@ -1,5 +1,4 @@
-//! Scenes drawn at random from wide ranges: whatever stands in them, radiance is a number that is not negative, and it does
-//! not depend on the size of the scene.
+//! Random scenes over wide ranges: radiance is finite, non-negative, and independent of the scale of the scene.
 
 #[path = "../src/algorithms/render_pt.rs"]
 pub mod render_pt;
@@ -16,7 +15,7 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, RngSeed};
 use render_pt::PathTracer;
 
-/// A number of a magnitude between two powers of ten.
+/// A number between two powers of ten, uniform in its logarithm.
 fn magnitude(powers: std::ops::Range<f32>) -> impl Strategy<Value = f32> {
     powers.prop_map(|power| 10f32.powf(power))
 }
@@ -25,7 +24,7 @@ fn point() -> impl Strategy<Value = Vec3> {
     [-1.0f32..1.0, -1.0f32..1.0, -1.0f32..1.0].prop_map(Vec3::from_array)
 }
 
-/// Triangles of sizes from a thousandth to five, some of them needles.
+/// Triangles with sizes from a thousandth to five, including needles.
 fn triangle() -> impl Strategy<Value = [Vec3; 3]> {
     (point(), point(), point(), magnitude(-3.0..0.7), magnitude(-4.0..0.0))
         .prop_map(|(corner, a, b, size, slim)| [corner, corner + size * a, corner + size * (a + slim * b)])
@@ -79,7 +78,7 @@ fn scene() -> impl Strategy<Value = SceneDescription> {
     )
 }
 
-/// The same scene, a power of two times as large.
+/// The same scene, scaled by a power of two.
 fn scaled(scene: &SceneDescription, scale: f32) -> SceneDescription {
     let mut scaled = scene.clone();
     scaled.camera.eye *= scale;

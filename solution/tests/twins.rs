@@ -1,4 +1,4 @@
-//! The student's program and the solution are the same but for what the student has to fill in.
+//! The starter and the solution are the same outside of the blocks to fill in.
 //!
 //! The files are read when the test runs, so that nothing in `skeleton/` depends on the solution.
 
@@ -17,18 +17,18 @@ const STARTER_CODE: [&str; 7] = [
     "struct LastBounce {}",
 ];
 
-/// A place to fill in.
+/// A block to fill in.
 struct Block {
-    /// The tasks that it belongs to, such as `5.1a, 5.2b`.
+    /// Its tasks, such as `5.1a, 5.2b`.
     tasks: String,
     /// The lines between its marks.
     lines: Vec<String>,
 }
 
-/// A hand-in file, taken apart.
-struct HandIn {
+/// A file, split into blocks and the rest.
+struct Submission {
     blocks: Vec<Block>,
-    /// Everything that is not within a block, marks included.
+    /// Everything outside of the blocks, including the marks.
     frame: String,
 }
 
@@ -37,25 +37,25 @@ fn text(package: &str, file: &str) -> String {
     fs::read_to_string(path).unwrap_or_else(|error| panic!("{package}/{file}: {error}"))
 }
 
-fn hand_in(package: &str) -> HandIn {
+fn submission(package: &str) -> Submission {
     let text = text(package, "src/algorithms/render_pt.rs");
-    let mut hand_in = HandIn { blocks: Vec::new(), frame: String::new() };
+    let mut submission = Submission { blocks: Vec::new(), frame: String::new() };
     let mut open: Option<Block> = None;
     for line in text.split_inclusive('\n') {
         let mark = line.trim();
         if let Some(end) = mark.strip_prefix("// END ") {
             let block = open.take().unwrap_or_else(|| panic!("{package}: `{mark}` ends nothing"));
             assert_eq!(block.tasks, end, "{package}: a block has one name at both ends");
-            hand_in.blocks.push(block);
+            submission.blocks.push(block);
         }
         match (&mut open, mark.strip_prefix("// TASK ")) {
             (Some(block), None) => block.lines.push(line.to_owned()),
-            (None, None) => hand_in.frame.push_str(line),
+            (None, None) => submission.frame.push_str(line),
             (None, Some(begin)) => {
                 let (tasks, _) =
                     begin.split_once(':').unwrap_or_else(|| panic!("{package}: `{mark}` has no colon"));
                 open = Some(Block { tasks: tasks.to_owned(), lines: Vec::new() });
-                hand_in.frame.push_str(line);
+                submission.frame.push_str(line);
             }
             (Some(block), Some(_)) => panic!("{package}: `{mark}` begins within {}", block.tasks),
         }
@@ -63,25 +63,27 @@ fn hand_in(package: &str) -> HandIn {
     if let Some(block) = open {
         panic!("{package}: the block {} has no end", block.tasks);
     }
-    hand_in
+    submission
 }
 
-/// What a line says, as code or as a comment; `None` if it has no word.
+/// The text of a line, code or comment; `None` without any letter or digit.
 fn content(line: &str) -> Option<&str> {
     let content = line.trim().trim_start_matches('/').trim();
     content.contains(|c: char| c.is_alphanumeric()).then_some(content)
 }
 
 #[test]
-fn both_programs_start_in_the_same_way() {
+fn both_programs_have_the_same_main() {
     assert_eq!(text("skeleton", "src/main.rs"), text("solution", "src/main.rs"));
 }
 
 #[test]
-fn hand_ins_differ_within_their_blocks_only() {
-    let (starter, solution) = (hand_in("skeleton"), hand_in("solution"));
+fn starter_and_solution_differ_within_their_blocks_only() {
+    let (starter, solution) = (submission("skeleton"), submission("solution"));
     assert_eq!(starter.frame, solution.frame);
-    let tasks = |hand_in: &HandIn| hand_in.blocks.iter().map(|block| block.tasks.clone()).collect::<Vec<_>>();
+    let tasks = |submission: &Submission| {
+        submission.blocks.iter().map(|block| block.tasks.clone()).collect::<Vec<_>>()
+    };
     assert_eq!(tasks(&starter), tasks(&solution));
     for task in ["5.1a", "5.1b", "5.2b"] {
         assert!(
@@ -93,7 +95,7 @@ fn hand_ins_differ_within_their_blocks_only() {
 
 #[test]
 fn every_block_of_the_solution_is_filled_in() {
-    for block in hand_in("solution").blocks {
+    for block in submission("solution").blocks {
         let is_code = |line: &String| content(line).is_some() && !line.trim().starts_with("//");
         assert!(block.lines.iter().any(is_code), "the block {} has no code", block.tasks);
     }
@@ -101,16 +103,16 @@ fn every_block_of_the_solution_is_filled_in() {
 
 #[test]
 fn the_starter_has_nothing_of_the_solution() {
-    let solution = hand_in("solution");
+    let solution = submission("solution");
     let secrets: HashSet<&str> =
         solution.blocks.iter().flat_map(|block| &block.lines).filter_map(|line| content(line)).collect();
-    let starter = hand_in("skeleton");
+    let starter = submission("skeleton");
     for line in starter.blocks.iter().flat_map(|block| &block.lines) {
         let line = line.trim();
         if STARTER_CODE.contains(&line) {
             continue;
         }
-        // Not even in a comment.
+        // This applies to comments, too.
         if let Some(content) = content(line) {
             assert!(!secrets.contains(content), "`{line}` is from the solution");
         }

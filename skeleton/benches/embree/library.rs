@@ -1,5 +1,4 @@
-//! The few functions of Embree's C interface (version 4) that single rays need, from a library that is loaded at run
-//! time: see the manual pages of `rtcNewScene`, `rtcIntersect1`, `rtcOccluded1`.
+//! The functions of the Embree 4 C API for single rays, loaded from a library at run time: see the manual pages of `rtcNewScene`, `rtcIntersect1`, `rtcOccluded1`.
 
 use std::ffi::{c_char, c_int, c_uint, c_void};
 use std::path::Path;
@@ -20,7 +19,7 @@ const INVALID: c_uint = c_uint::MAX;
 
 type Handle = *mut c_void;
 
-/// `RTCRayHit`: a ray and what it hit, with room for more instance levels than any build has.
+/// `RTCRayHit`, with space for more instance levels than any build has.
 #[repr(C, align(16))]
 struct RayHit {
     origin: [f32; 3],
@@ -58,7 +57,7 @@ impl RayHit {
     }
 }
 
-/// Embree, loaded. It is never unloaded: its threads may still be at work when this program ends.
+/// The loaded library. It is never unloaded: its threads may still be running when this program ends.
 pub(super) struct Embree {
     library: &'static Library,
     device: Handle,
@@ -72,11 +71,11 @@ pub(super) struct EmbreeScene<'a> {
 }
 
 impl Embree {
-    /// Loads a library and makes a device.
+    /// Loads a library and creates a device.
     pub(super) fn load(path: &Path) -> Result<Self, Box<dyn std::error::Error>> {
-        // SAFETY: whoever names a library trusts the code that runs when it is loaded; Embree's has no demands.
+        // SAFETY: the user who names a library trusts its initialization code; that of Embree has no requirements.
         let library: &'static Library = Box::leak(Box::new(unsafe { Library::new(path) }?));
-        // SAFETY: the signature of `rtcNewDevice`; without a configuration it takes its defaults.
+        // SAFETY: the signature of `rtcNewDevice`; without a configuration it uses the defaults.
         let device = unsafe {
             library.get::<unsafe extern "C" fn(*const c_char) -> Handle>(b"rtcNewDevice\0")?(null())
         };
@@ -103,8 +102,8 @@ impl Embree {
         type Act = unsafe extern "C" fn(Handle);
         type Buffer = unsafe extern "C" fn(Handle, c_int, c_uint, c_int, usize, usize) -> *mut c_void;
         let corners = triangles.as_flattened();
-        // SAFETY: names and signatures are those of Embree 4's headers; handles are passed on as it gave them; the
-        // buffers that it allocates have room for what is written, padded as it demands.
+        // SAFETY: names and signatures are those of Embree 4's headers; handles are passed unchanged; the buffers
+        // it allocates are large enough for the data, including the required padding.
         unsafe {
             let scene = self.library.get::<New>(b"rtcNewScene\0")?(self.device);
             if robust {
@@ -146,17 +145,17 @@ impl Embree {
 }
 
 impl EmbreeScene<'_> {
-    /// The triangle that the ray hits first.
+    /// The first triangle hit by the ray.
     #[inline]
     pub(super) fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<u32> {
         let mut ray = RayHit::new(origin, direction, f32::INFINITY);
-        // SAFETY: the scene is committed and the ray initialised and aligned to 16 bytes, as the manual page demands;
-        // without arguments Embree takes its defaults.
+        // SAFETY: the scene is committed and the ray initialized and aligned to 16 bytes, as the manual page requires;
+        // without arguments Embree uses its defaults.
         unsafe { (self.intersect)(self.scene, &mut ray, null()) };
         (ray.geometry != INVALID).then_some(ray.primitive)
     }
 
-    /// True if anything lies between the points, but for the last 1e-4 of the way: the triangle that the target lies on.
+    /// True if a triangle is between the points, up to the last 1e-4 of the distance, where the triangle of the target is.
     #[inline]
     pub(super) fn occluded(&self, origin: Vec3, target: Vec3) -> bool {
         let mut ray = RayHit::new(origin, target - origin, 1.0 - 1e-4);

@@ -1,14 +1,14 @@
-//! How many rays a second find what they hit, beside [Embree](https://www.embree.org): identical rays, single-ray calls,
-//! one thread, in turns within one process.
+//! Comparison with [Embree](https://www.embree.org): identical rays, single-ray calls, one thread, interleaved within one
+//! process.
 //!
-//! `ARTY_EMBREE=…/libembree4.so.4 cargo bench -p arty --bench embree`, with the location of an Embree 4 library, such as
+//! `ARTY_EMBREE=…/libembree4.so.4 cargo bench -p arty --bench embree`, with the path of an Embree 4 library, such as
 //! that of a distribution's package. Without it, nothing is measured.
 //!
-//! Prints millions of rays a second, and how many times as fast arty is as Embree with its defaults and as Embree with
-//! its watertight ("robust") test; arty is always watertight. Medians of rounds, and the share of rays on which arty and
-//! robust Embree disagree. Rays start where `Hit::spawn` has them start, and arty knows which triangle they leave, as it
-//! does in a path tracer. Embree's interface has no place for that: in the Cornell box, some rays hit for Embree what they
-//! have just left. Elsewhere they disagree at edges.
+//! Prints millions of rays per second, and the speed relative to Embree with its defaults and with its watertight ("robust")
+//! triangle test; arty is always watertight. Medians over rounds, and the fraction of rays for which the hits of arty and
+//! robust Embree differ. Rays start as with `Hit::spawn`, and arty excludes the triangle they start on, as in a path tracer.
+//! Embree's interface does not support this: in the Cornell box, some rays hit the triangle they start on. Elsewhere the
+//! hits differ at edges.
 
 mod library;
 mod rays;
@@ -21,7 +21,7 @@ use arty::accel::Accel;
 use library::{Embree, EmbreeScene};
 use rays::{Rays, Segment, Start, geometries};
 
-/// In turns, so that whatever else the machine does slows down all of them.
+/// Interleaved, so that other load affects all of them.
 const ROUNDS: usize = 15;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -53,7 +53,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Times all three on the same rays and prints a line.
+/// Measures all three with the same rays and prints a line.
 fn compare<R, A: PartialEq>(
     name: &str,
     rays: &[R],
@@ -82,7 +82,7 @@ fn compare<R, A: PartialEq>(
     );
 }
 
-/// Millions of rays a second.
+/// Millions of rays per second.
 fn speed<R, A>(rays: &[R], trace: impl Fn(&R) -> A) -> f64 {
     let start = Instant::now();
     for ray in rays {

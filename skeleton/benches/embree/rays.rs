@@ -1,4 +1,4 @@
-//! What is measured: three scenes, and the rays of a path tracer in each.
+//! Three scenes, and the rays of a path tracer in each.
 
 use std::f32::consts::TAU;
 use std::path::Path;
@@ -9,24 +9,24 @@ use arty::math::{Frame, Vec3, warp};
 use arty::sampler::Sampler;
 use arty::scene::{CameraDescription, file};
 
-/// Rays of each kind.
+/// Number of rays of each kind.
 const RAYS: usize = 1 << 16;
 
-/// The longest path, in bounces.
+/// Maximum number of bounces.
 const MAX_BOUNCES: usize = 8;
 
-/// Image columns and rows that camera rays are spread over.
+/// Width and height of the image for camera rays.
 const SIZE: (u32, u32) = (512, 512);
 
 /// Rings of the sphere, of twice as many quads each: a million triangles.
 const RINGS: u32 = 500;
 
-/// Triangles, and from where they are seen.
+/// Triangles and a camera.
 pub(super) struct Geometry {
     pub(super) name: &'static str,
     pub(super) triangles: Vec<[Vec3; 3]>,
     camera: CameraDescription,
-    /// Where the shadow rays go.
+    /// Target of the shadow rays.
     light: [Vec3; 3],
 }
 
@@ -34,7 +34,7 @@ pub(super) struct Geometry {
 pub(super) struct Start {
     pub(super) origin: Vec3,
     pub(super) direction: Vec3,
-    /// The triangle that it starts from.
+    /// The triangle it starts on.
     pub(super) exclude: Option<u32>,
 }
 
@@ -42,7 +42,7 @@ pub(super) struct Start {
 pub(super) struct Segment {
     pub(super) origin: Vec3,
     pub(super) target: Vec3,
-    /// The triangle that it starts from.
+    /// The triangle it starts on.
     pub(super) exclude: u32,
 }
 
@@ -70,7 +70,7 @@ fn from_collection(name: &'static str) -> Geometry {
     Geometry { name, triangles, camera: scene.camera, light: lights[0] }
 }
 
-/// A sphere with waves on it, in a cube of four times its radius with a light under the ceiling.
+/// A wavy sphere in a cube of four times its radius, with a light below the ceiling.
 fn sphere() -> Geometry {
     let point = |ring: u32, step: u32| {
         let (theta, phi) = (TAU / 2.0 * ring as f32 / RINGS as f32, TAU * step as f32 / (2 * RINGS) as f32);
@@ -112,7 +112,7 @@ pub(super) struct Rays {
 }
 
 impl Rays {
-    /// The rays of as many paths as it takes, found with our own structure.
+    /// The rays of as many paths as needed, traced with arty.
     pub(super) fn of(geometry: &Geometry, accel: &Accel) -> Self {
         let camera = Camera::new(&geometry.camera, SIZE.0, SIZE.1);
         let mut rays = Self::default();
@@ -120,7 +120,7 @@ impl Rays {
             if rays.primary.len() >= RAYS && rays.bounces.len() >= RAYS && rays.shadow.len() >= RAYS {
                 break;
             }
-            // Neighbouring pixels follow each other in an image; here each is drawn apart, the harder case.
+            // Random pixels are harder than neighbouring ones, as in an image.
             let mut sampler = Sampler::new(1, (0, 0), path);
             let (u, v) = sampler.next_2d();
             let pixel = ((u * SIZE.0 as f32) as u32, (v * SIZE.1 as f32) as u32);
@@ -141,7 +141,7 @@ impl Rays {
         rays
     }
 
-    /// Adds a shadow ray from a hit point and gives the ray of a diffuse bounce.
+    /// Adds a shadow ray from a hit point and returns the ray of a diffuse bounce.
     fn scatter(
         &mut self,
         geometry: &Geometry,

@@ -1,4 +1,4 @@
-//! A binary tree over triangles, one triangle a leaf.
+//! Binary trees over triangles, with one triangle per leaf.
 
 use glam::Vec3;
 use obvhs::Boundable;
@@ -9,25 +9,25 @@ use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 
 use crate::dedup::dedup;
 
-/// Up to this depth a tree is worth improving. Trees over meshes have about half of it.
+/// Maximum depth of trees that are optimized. Typical meshes have half of it.
 const DEPTH_WORTH_IMPROVING: usize = 64;
 
 /// Nodes, the root first, parents before their children.
 pub(super) struct BinaryTree {
-    /// The nodes; none if there is no triangle.
+    /// The nodes; empty without triangles.
     pub(super) nodes: Vec<BinaryNode>,
 }
 
-/// A node with two children or, if it has one triangle only, a leaf.
+/// A node with two children, or a leaf with one triangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BinaryNode {
-    /// Minimum coordinates of all triangles below.
+    /// Minimum corner of the bounding box.
     pub(super) min: Vec3,
-    /// Maximum coordinates.
+    /// Maximum corner of the bounding box.
     pub(super) max: Vec3,
-    /// How many triangles there are below.
+    /// Number of triangles in the subtree.
     pub(super) triangles: u32,
-    /// The first of two children, one after the other; in a leaf the index of the triangle.
+    /// Index of the first of two consecutive children; in a leaf the index of the triangle.
     pub(super) first: u32,
 }
 
@@ -38,14 +38,14 @@ impl BinaryNode {
         (self.triangles > 1).then_some([self.first as usize, self.first as usize + 1])
     }
 
-    /// Half the area of the box's surface: how likely a ray meets it.
+    /// Half the surface area of the box, which is proportional to the probability that a ray hits it.
     pub(super) fn half_area(&self) -> f32 {
         let size = self.max - self.min;
         size.x * size.y + size.y * size.z + size.z * size.x
     }
 }
 
-/// The box around a triangle.
+/// The bounding box of a triangle.
 struct Bounds([Vec3; 2]);
 
 impl Boundable for Bounds {
@@ -58,18 +58,18 @@ fn bounds(&[a, b, c]: &[Vec3; 3]) -> [Vec3; 2] {
     [a.min(b).min(c), a.max(b).max(c)]
 }
 
-/// What a node is still to be made of.
+/// What a node is built from.
 enum Source {
-    /// A node of the tree that obvhs made.
+    /// A node of the tree from obvhs.
     Obvhs(usize),
-    /// A range of the list of triangles, to be halved until single triangles are left.
+    /// A range of triangles, to be split in halves.
     Range(usize, usize),
 }
 
 impl BinaryTree {
-    /// The tree that obvhs makes: locally ordered clustering, improved by reinsertion.
+    /// Builds the tree with obvhs: locally ordered clustering, optimized by reinsertion.
     ///
-    /// Triangles with the same box are one to obvhs, which else makes a level for each of them.
+    /// Triangles with equal boxes are passed to obvhs as one; otherwise it would make a level for each of them.
     pub(super) fn cluster(triangles: &[[Vec3; 3]]) -> Self {
         let same_box = dedup(triangles.len(), |triangle| {
             bounds(&triangles[triangle]).map(|corner| corner.to_array().map(f32::to_bits))
@@ -111,16 +111,16 @@ impl BinaryTree {
         Self::expand(triangles, order, root, &obvhs, &starts)
     }
 
-    /// A tree by halving the number of triangles at every node: never deeper than the logarithm of their number,
-    /// rounded up, but slower to traverse.
+    /// Builds a tree by splitting at the median: its depth is the logarithm of the number of triangles, rounded up, but it is
+    /// slower to traverse.
     pub(super) fn halve(triangles: &[[Vec3; 3]]) -> Self {
         let order: Vec<u32> = (0..triangles.len() as u32).collect();
         let all = Source::Range(0, order.len());
         Self::expand(triangles, order, all, &Bvh2::default(), &[])
     }
 
-    /// Makes the nodes from what they are to be made of. `starts` says where in `order` the triangles of each of
-    /// the boxes begin that `obvhs` knows.
+    /// Builds the nodes from their sources. `starts` has the index into `order` of the first triangle of each box passed to
+    /// `obvhs`.
     fn expand(
         triangles: &[[Vec3; 3]],
         mut order: Vec<u32>,
@@ -178,8 +178,8 @@ impl BinaryTree {
     }
 }
 
-/// Orders triangles along the axis on which their middles are farthest apart, so far that the first `middle` of
-/// them come before all others.
+/// Partitions triangles along the axis of the largest extent of their centres, such that the first `middle` of them come
+/// before all others.
 fn separate(triangles: &[[Vec3; 3]], order: &mut [u32], middle: usize) {
     let position = |triangle: u32, axis: usize| {
         let [min, max] = bounds(&triangles[triangle as usize]);
@@ -197,7 +197,7 @@ fn separate(triangles: &[[Vec3; 3]], order: &mut [u32], middle: usize) {
     order.select_nth_unstable_by(middle, |a, b| position(*a, axis).total_cmp(&position(*b, axis)));
 }
 
-/// Levels of a tree whose parents come before their children.
+/// Depth of a tree whose parents come before their children.
 fn depth(tree: &Bvh2) -> usize {
     let mut depths = vec![1; tree.nodes.len()];
     for (index, node) in tree.nodes.iter().enumerate() {

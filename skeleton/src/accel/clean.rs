@@ -1,4 +1,4 @@
-//! Which triangles are worth keeping.
+//! Removal of degenerate and duplicate triangles.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -6,26 +6,26 @@ use rayon::prelude::*;
 use super::exact;
 use crate::dedup::{MIN_PER_THREAD, dedup};
 
-/// What is left of a list of triangles.
+/// The triangles that are kept.
 pub(super) struct Cleaned {
-    /// The triangles that can be hit, each once.
+    /// Triangles that can be hit, without duplicates.
     pub(super) triangles: Vec<[Vec3; 3]>,
-    /// The index of each in the list.
+    /// Index of each triangle in the input.
     pub(super) primitives: Vec<u32>,
-    /// How many were left out because they have no area or are not finite.
+    /// Number of triangles removed because they have no area or are not finite.
     pub(super) degenerate: usize,
-    /// Those that were left out because an earlier one has the same corners, in any order; with that one.
+    /// Triangles removed because an earlier one has the same vertices, in any order; each with that one.
     pub(super) duplicates: Vec<[u32; 2]>,
 }
 
-/// Leaves out triangles without area, which no ray can hit, and duplicates, of which it could hit any.
+/// Removes triangles without an area, which no ray can hit, and duplicates, of which a ray could hit any.
 ///
-/// The area is taken from f32 coordinates in f64, where it is 0 only if it truly is: slivers that are needed to
-/// close a mesh are kept, however thin.
+/// The area of f32 coordinates is computed in f64, where it is 0 only if it is exactly 0: slivers that close a mesh are kept,
+/// however thin.
 pub(super) fn clean(all: &[[Vec3; 3]]) -> Cleaned {
     let mut cleaned =
         Cleaned { triangles: Vec::new(), primitives: Vec::new(), degenerate: 0, duplicates: Vec::new() };
-    // Adding 0 makes −0 the same as 0.
+    // Adding 0 turns −0 into 0.
     let prepared = |corners: &[Vec3; 3]| corners.map(|corner| corner + 0.0);
     let can_be_hit = |(primitive, corners): (usize, &[Vec3; 3])| {
         let finite = corners.iter().all(|corner| corner.is_finite());

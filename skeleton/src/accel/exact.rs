@@ -1,23 +1,22 @@
-//! Close calls, settled in f64.
+//! Predicates, decided in f64.
 //!
-//! A path that leaves a surface starts a few roundings from it, and a shadow ray ends on the light that it asks
-//! about. Whether such a point lies on this or on that side of a triangle is beyond f32. In f64 the differences
-//! of f32 coordinates and the products of two of them are exact unless their magnitudes are far apart, so the
-//! signs below are those of the true values.
+//! A ray from a surface starts a few ulps off it, and a shadow ray ends on a light. On which side of a triangle such a point
+//! is cannot be decided in f32. In f64, differences of f32 coordinates and products of two of them are exact unless their
+//! magnitudes are very different, so the signs computed below are correct.
 
 use glam::{DVec3, Vec3};
 
-/// What the tests below need of a triangle besides a corner.
+/// The plane of a triangle, as the predicates below need it in addition to a vertex.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
     /// See [`normal`].
     normal: DVec3,
-    /// The greatest coordinates of corners by magnitude, along the normal: Σ|nᵢ||vᵢ|.
+    /// Σ|nᵢ||vᵢ|, with the largest coordinates of the vertices by magnitude.
     reach: f64,
 }
 
 impl Plane {
-    /// That of no triangle.
+    /// The plane of an unused lane.
     pub(super) const NONE: Self = Self { normal: DVec3::ZERO, reach: 0.0 };
 
     /// The plane of a triangle.
@@ -28,11 +27,11 @@ impl Plane {
     }
 }
 
-/// Distance at which the plane of a triangle with this `corner` is met, in lengths of the direction; `None` if it is not ahead.
+/// Distance to the plane of a triangle with this `corner`, in multiples of the direction's length; `None` if the plane is not
+/// ahead.
 ///
-/// The origin may be so near to the plane that even f64 cannot tell, as after cancellation in a point next to
-/// (0, 0, 0). Then it is taken to lie on the plane, which is not ahead. The distance is positive even where it is
-/// too small for f32.
+/// The origin may be so close to the plane that even f64 cannot decide, as after cancellation near (0, 0, 0). Then it counts
+/// as on the plane, which is not ahead. The distance is positive even if it is too small for f32.
 #[inline(always)]
 pub(super) fn distance_ahead(plane: &Plane, corner: Vec3, origin: Vec3, direction: Vec3) -> Option<f32> {
     let normal = plane.normal;
@@ -45,13 +44,13 @@ pub(super) fn distance_ahead(plane: &Plane, corner: Vec3, origin: Vec3, directio
     (t > 0.0 && t < f64::from(f32::MAX)).then(|| (t as f32).max(f32::MIN_POSITIVE))
 }
 
-/// True if the two points lie strictly on opposite sides of the plane of a triangle with this `corner`, `target` by more than the
-/// rounding of its coordinates explains.
+/// True if the two points are strictly on opposite sides of the plane of a triangle with this `corner`, `target` by more than
+/// the rounding error of its coordinates.
 ///
-/// `target` is taken as a point that was rounded to f32, from a surface whose vertices were: each of its
-/// coordinates p is off by up to u·|p|, u = 2⁻²⁴, and each coordinate of the vertices that gave it and of those
-/// of this triangle by u·|v|. With normal n, that moves its distance from the plane by up to
-/// u·Σ|nᵢ|(|pᵢ| + 2|vᵢ|) / |n|. So what `target` lies on, and what continues that flatly, does not separate.
+/// `target` is a point rounded to f32 on a surface whose vertices were rounded to f32: each of its coordinates p has an error
+/// of up to u·|p|, u = 2⁻²⁴, and each coordinate of the vertices of either triangle one of up to u·|v|. With the normal n,
+/// the error of its distance from the plane is at most u·Σ|nᵢ|(|pᵢ| + 2|vᵢ|) / |n|. So the surface that contains `target`,
+/// and a coplanar one next to it, does not separate the points.
 #[inline(always)]
 pub(super) fn separates(plane: &Plane, corner: Vec3, origin: Vec3, target: Vec3) -> bool {
     let normal = plane.normal;
@@ -62,7 +61,7 @@ pub(super) fn separates(plane: &Plane, corner: Vec3, origin: Vec3, target: Vec3)
     (from_origin < 0.0 && from_target > rounding) || (from_origin > 0.0 && from_target < -rounding)
 }
 
-/// (v₁ − v₀) × (v₂ − v₀): not a unit vector, but twice the area long.
+/// (v₁ − v₀) × (v₂ − v₀), whose length is twice the area.
 #[inline]
 pub(super) fn normal(triangle: &[Vec3; 3]) -> DVec3 {
     let corner = triangle[0].as_dvec3();

@@ -1,38 +1,37 @@
-//! Eight numbers at a time.
+//! SIMD with eight lanes.
 //!
-//! The traversal is written once, over the trait [`Lanes`], and compiled twice: for AVX2, and with plain arrays
-//! for every other machine. Each operation is a single IEEE operation in each lane and nothing is ever fused,
-//! so both give the same bits.
+//! The traversal is generic over the trait [`Lanes`] and compiled twice: for AVX2, and with arrays for all other machines.
+//! Each operation is one IEEE operation per lane, and operations are never fused, so both give the same bits.
 
 use std::ops::{Add, Mul, Sub};
 
-/// Eight numbers that are worked on together; a lane is one of them.
+/// Eight numbers, one per lane.
 pub(super) trait Lanes: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
     /// The same number in every lane.
     fn splat(value: f32) -> Self;
     /// Eight numbers from memory.
     fn load(values: &Row) -> Self;
-    /// Eight numbers back to where each can be looked at.
+    /// Stores the numbers to memory.
     fn store(self) -> Row;
     /// Quotients.
     fn div(self, divisor: Self) -> Self;
-    /// The lesser of two; `other` if one of them is not a number.
+    /// The minimum; `other` if one of them is NaN.
     fn min(self, other: Self) -> Self;
-    /// The greater of two; `other` if one of them is not a number.
+    /// The maximum; `other` if one of them is NaN.
     fn max(self, other: Self) -> Self;
     /// Absolute values.
     fn abs(self) -> Self;
-    /// A bit for each lane in which `self <= other`, that of lane 0 the lowest; 0 where one is not a number.
+    /// A mask of the lanes where `self <= other`, lane 0 in the lowest bit; false for NaN.
     fn le(self, other: Self) -> u32;
-    /// A bit for each lane in which `self < other`, that of lane 0 the lowest; 0 where one is not a number.
+    /// A mask of the lanes where `self < other`, lane 0 in the lowest bit; false for NaN.
     fn lt(self, other: Self) -> u32;
-    /// Has memory begin to send what is at an address, if there is anything.
+    /// Prefetches an address, which need not be valid.
     fn fetch<T>(address: *const T);
-    /// A bit for each index that is the given one, that of the first the lowest.
+    /// A mask of the indices equal to the given one, the first in the lowest bit.
     fn equal(indices: &Indices, index: u32) -> u32;
 }
 
-/// Takes the lowest bit off, and gives the lane that it stands for.
+/// Clears the lowest bit of a mask and returns its lane.
 #[inline(always)]
 pub(super) fn take_lowest(bits: &mut u32) -> usize {
     let lane = bits.trailing_zeros() as usize;
@@ -50,7 +49,7 @@ pub(super) struct Indices(pub(super) [u32; 8]);
 #[repr(C, align(32))]
 pub(super) struct Row(pub(super) [f32; 8]);
 
-/// For every machine: a plain array.
+/// For all machines: an array.
 #[derive(Clone, Copy)]
 pub(super) struct Portable([f32; 8]);
 
@@ -153,14 +152,14 @@ mod avx {
 
     use super::{Indices, Lanes, Row};
 
-    /// For machines with AVX2: one register.
+    /// For machines with AVX2: a register.
     ///
-    /// Only code that runs after a check for AVX2 may make one. All of it is inlined into functions that are
-    /// compiled for AVX2; that is what makes the intrinsics below single instructions.
+    /// May be constructed only after a check for AVX2. All code is inlined into functions compiled for AVX2, so that the
+    /// intrinsics below become single instructions.
     #[derive(Clone, Copy)]
     pub(in crate::accel) struct Avx(__m256);
 
-    /// Operators that are one intrinsic each.
+    /// Operators that map to one intrinsic.
     macro_rules! operators {
         ($($operator:ident :: $function:ident = $intrinsic:ident),*) => {$(
             impl $operator for Avx {
@@ -201,12 +200,12 @@ mod avx {
         }
         #[inline(always)]
         fn min(self, other: Self) -> Self {
-            // SAFETY: as above. The instruction gives its second operand if one is not a number.
+            // SAFETY: as above. The instruction returns its second operand if one is NaN.
             Self(unsafe { _mm256_min_ps(self.0, other.0) })
         }
         #[inline(always)]
         fn max(self, other: Self) -> Self {
-            // SAFETY: as above. The instruction gives its second operand if one is not a number.
+            // SAFETY: as above. The instruction returns its second operand if one is NaN.
             Self(unsafe { _mm256_max_ps(self.0, other.0) })
         }
         #[inline(always)]
@@ -227,7 +226,7 @@ mod avx {
         #[inline(always)]
         fn fetch<T>(address: *const T) {
             for line in 0..size_of::<T>() / 64 {
-                // SAFETY: every machine with AVX2 can; it changes nothing, and an address that cannot be read is no fault.
+                // SAFETY: every machine with AVX2 supports it; it has no effect on memory, and invalid addresses do not fault.
                 unsafe { _mm_prefetch::<_MM_HINT_T0>(address.cast::<i8>().wrapping_add(64 * line)) };
             }
         }

@@ -1,8 +1,8 @@
-//! Which triangle does a ray hit first, and does anything lie between two points?
+//! The acceleration structure: the nearest hit of a ray, and visibility between two points.
 //!
-//! Triangles are sorted into blocks of eight and blocks into a tree of boxes (`tree`), which rays descend
-//! (`traverse`) until they meet blocks (`triangle_block`). Rays do not leak: not through edges, not through
-//! vertices, nor because they start or end next to a surface (`exact`).
+//! Triangles are grouped into blocks of eight (`triangle_block`) at the leaves of an 8-wide bounding volume hierarchy
+//! (`tree`, `traverse`). It is watertight: rays leak neither through edges and vertices nor because they start or end next
+//! to a surface (`exact`).
 
 mod binary;
 mod clean;
@@ -26,52 +26,52 @@ use ray::PreparedRay;
 use tree::Tree;
 use triangle_block::{NO_PRIMITIVE, Nearest};
 
-/// Triangles in an order in which those that a ray hits are found fast.
+/// A bounding volume hierarchy over triangles.
 #[derive(Clone, Debug)]
 pub struct Accel {
     tree: Tree,
-    /// A power of two by which everything is scaled so that products of three lengths stay within f32.
+    /// Power of two by which coordinates are scaled, so that products of three lengths are within the range of f32.
     scale: f32,
-    /// Whether to use the code that is compiled for AVX2.
+    /// Whether to use the code compiled for AVX2.
     #[cfg(target_arch = "x86_64")]
     avx2: bool,
     stats: AccelStats,
     duplicates: Vec<[u32; 2]>,
 }
 
-/// What was built, for messages.
+/// Statistics of the acceleration structure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct AccelStats {
-    /// Triangles that can be hit.
+    /// Number of triangles that can be hit.
     pub triangles: usize,
-    /// Triangles left out because they have no area or a coordinate that is not finite.
+    /// Number of triangles ignored because they have no area or a coordinate that is not finite.
     pub degenerate: usize,
-    /// Triangles left out because an earlier one has the same three corners, in whatever order.
+    /// Number of triangles ignored because an earlier one has the same three vertices, in any order.
     pub duplicates: usize,
-    /// Nodes of the tree; 0 if all blocks are tested one by one.
+    /// Number of nodes; 0 if all blocks are tested one by one.
     pub nodes: usize,
-    /// Nodes on the longest way from the root to a block.
+    /// Maximum number of nodes from the root to a block.
     pub depth: usize,
-    /// Blocks of up to eight triangles.
+    /// Number of blocks of up to eight triangles.
     pub blocks: usize,
 }
 
-/// Where a ray meets a triangle.
+/// The intersection of a ray with a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TriangleHit {
-    /// Distance from the origin, in lengths of the direction; positive.
+    /// Distance from the origin in multiples of the direction's length; positive.
     pub t: f32,
-    /// Index into the list of triangles that the structure was built from.
+    /// Index into the triangles that the structure was built from.
     pub primitive: u32,
-    /// Weights of corners 1 and 2. Neither is negative, and their sum is at most 1.
+    /// Barycentric weights of vertices 1 and 2: non-negative, with a sum of at most 1.
     pub barycentrics: [f32; 2],
 }
 
 impl Accel {
-    /// Builds the structure over triangles given by their corners. Both sides of a triangle can be hit.
+    /// Builds the structure over triangles given by their vertices. Triangles are two-sided.
     ///
-    /// Triangles that no ray can hit and repeated ones are left out; [`stats`](Self::stats) tells how many. Of
-    /// those with the same corners the first is kept.
+    /// Degenerate and duplicate triangles are ignored ([`stats`](Self::stats) has their numbers); of duplicates the first is
+    /// kept.
     pub fn build(triangles: &[[Vec3; 3]]) -> Self {
         let mut cleaned = clean::clean(triangles);
         let corners = cleaned.triangles.as_flattened_mut();
@@ -105,21 +105,21 @@ impl Accel {
         }
     }
 
-    /// What was built.
+    /// Statistics.
     pub fn stats(&self) -> AccelStats {
         self.stats
     }
 
-    /// The triangles that were left out because an earlier one has the same corners, each with that one.
+    /// The triangles ignored as duplicates, each with the earlier one that was kept.
     pub fn duplicates(&self) -> &[[u32; 2]] {
         &self.duplicates
     }
 
-    /// The nearest hit between 0 and `t_max`, both excluded; distances are in lengths of `direction`.
+    /// The nearest hit with a distance strictly between 0 and `t_max`, in multiples of `direction`'s length.
     ///
-    /// `direction` may have any length that is far from the ends of what f32 can represent. A ray that is not
-    /// finite or has no direction hits nothing. Neither does a ray hit the triangle `exclude`, the one that it starts
-    /// from: its origin has been moved off that, so this saves the time to find out.
+    /// `direction` may have any length well within the range of f32. Rays with a zero direction or with NaN or infinite
+    /// coordinates hit nothing. `exclude` is a triangle that is not tested: the one that the ray starts on, whose origin must
+    /// be offset from it anyway.
     #[inline]
     pub fn intersect(
         &self,
@@ -137,12 +137,12 @@ impl Accel {
         self.intersect_portable(ray.x, ray.y, ray.z, t_max, exclude)
     }
 
-    /// True if anything lies strictly between `origin` and `target`.
+    /// True if a triangle other than `exclude` is strictly between `origin` and `target`.
     ///
-    /// A triangle is between them if they are strictly on opposite sides of its plane and the line from one to
-    /// the other passes through it. `target` may be rounded: a triangle that it lies on but for the rounding of
-    /// coordinates to f32, such as that of a light, is not between. For `origin` there is no such allowance; a
-    /// point on a surface must be moved off it first ([`offset_origin`]). The triangle `exclude` counts as not between.
+    /// A triangle is between them if they are strictly on opposite sides of its plane and their connecting line intersects it.
+    /// `target` may be rounded: a triangle that contains it up to the rounding of coordinates to f32, such as that of a light,
+    /// does not count. There is no such tolerance for `origin`: a point on a surface must be offset first
+    /// ([`offset_origin`]).
     #[inline]
     pub fn occluded(&self, origin: Vec3, target: Vec3, exclude: Option<u32>) -> bool {
         let (ends, exclude) = (Pairs::of(origin, target), exclude.unwrap_or(NO_PRIMITIVE));
@@ -180,7 +180,7 @@ impl Accel {
     fn intersect_with<V: Lanes>(&self, ray: Pairs, t_max: f32, exclude: u32) -> Option<TriangleHit> {
         let [origin, direction] = ray.vectors();
         let ray = PreparedRay::new(origin * self.scale, direction * self.scale, exclude)?;
-        // An infinite end would meet the empty boxes of unused lanes where rounding takes a ray's origin to infinity.
+        // With an infinite end, the empty boxes of unused lanes would be hit if rounding takes the origin to infinity.
         let end = if t_max > f32::MAX { f32::MAX } else { t_max };
         let mut nearest = Nearest { t: end, primitive: 0, weights: [0.0; 2], weight_sum: 0.0 };
         self.tree.intersect::<V>(&ray, &mut nearest);
@@ -197,7 +197,7 @@ impl Accel {
     fn occluded_with<V: Lanes>(&self, ends: Pairs, exclude: u32) -> bool {
         let [origin, target] = ends.vectors();
         let (origin, target) = (origin * self.scale, target * self.scale);
-        // One rounding: f64 would give the same.
+        // A single rounding; f64 would give the same result.
         let Some(ray) = PreparedRay::new(origin, target - origin, exclude) else { return false };
         let reach = origin.abs().max_element() + target.abs().max_element();
         self.tree.occluded::<V>(&ray, target, reach)
@@ -209,8 +209,8 @@ type Pair = (f32, f32);
 
 /// Two vectors, by axis.
 ///
-/// A function takes a pair in two registers, but a vector in memory. There the caller has just written it coordinate by
-/// coordinate; whoever then reads several at once has to wait until all are written.
+/// Pairs are passed in registers, vectors in memory: there the caller has just written them coordinate by coordinate, and a
+/// wide load would stall until all stores are complete.
 #[derive(Clone, Copy)]
 struct Pairs {
     x: Pair,
@@ -230,15 +230,15 @@ impl Pairs {
     }
 }
 
-/// The power of two that brings coordinates up to `max` into a range in which products of three of them,
-/// and of differences a millionth as great, are far from the ends of f32. Almost always 1.
+/// The power of two that scales coordinates of magnitude up to `max` such that products of three of them, or of differences
+/// a million times smaller, are well within the range of f32. Almost always 1.
 fn scale_for(max: f32) -> f32 {
     const MIN: f32 = 1.0 / (1 << 15) as f32;
     const MAX: f32 = (1u64 << 35) as f32;
     if max == 0.0 || (MIN..MAX).contains(&max) {
         return 1.0;
     }
-    // The exponent of `max` with its sign turned; f32 has no more than 127 to either side.
+    // The negated exponent of `max`, within the range of f32.
     let exponent = max.log2().floor().clamp(-126.0, 126.0);
     (-exponent).exp2()
 }

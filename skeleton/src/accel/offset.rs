@@ -1,8 +1,8 @@
-//! Points on triangles, and where rays may start that leave them.
+//! Points on triangles, and the origins of rays that start there.
 
 use glam::Vec3;
 
-/// The point with the given weights of corners 1 and 2, each coordinate rounded to f32 once.
+/// The point with the given barycentric weights of vertices 1 and 2, each coordinate rounded to f32 once.
 #[inline]
 pub fn point_on(triangle: &[Vec3; 3], barycentrics: [f32; 2]) -> Vec3 {
     let [a, b, c] = triangle.map(Vec3::as_dvec3);
@@ -10,18 +10,18 @@ pub fn point_on(triangle: &[Vec3; 3], barycentrics: [f32; 2]) -> Vec3 {
     (a + (b - a) * v + (c - a) * w).as_vec3()
 }
 
-/// Moves a point of a surface off it, to the side that `direction` goes to.
+/// Offsets a point on a surface to the side that `direction` points to.
 ///
-/// `point` is a point of the plane with normal n (unit length, either side) whose coordinates were rounded to f32
-/// once, as those of [`point_on`]: coordinate i is off by up to uᵢ/2, uᵢ its ulp, and so the point is within
-/// ½Σ|nᵢ|uᵢ of the plane. It is moved by δ along n and rounded again. A coordinate that passes a power of two has
-/// an ulp of 2uᵢ afterwards, so that takes back up to Σ|nᵢ|uᵢ. Therefore δ > 1.5·Σ|nᵢ|uᵢ keeps it strictly on its
-/// side, and a thousandth more is for the rounding of n.
+/// `point` is a point on the plane with the unit normal n (on either side) whose coordinates were rounded to f32 once, as by
+/// [`point_on`]: coordinate i has an error of up to uᵢ/2, where uᵢ is its ulp, so the point is within ½Σ|nᵢ|uᵢ of the plane.
+/// It is moved by δ along n and rounded again. If a coordinate crosses a power of two, its ulp becomes 2uᵢ, so the second
+/// rounding moves the point back by up to Σ|nᵢ|uᵢ. Hence δ > 1.5·Σ|nᵢ|uᵢ keeps it strictly on its side; one thousandth is
+/// added for the rounding of n.
 ///
-/// A coordinate near 0 has a tiny ulp but is no more exact than the f64 sum that it comes from; so a 2⁻³⁰th
-/// of the greatest coordinate is the least that counts as an ulp, and 2⁻¹⁰⁰ where all are 0.
+/// A coordinate near 0 has a tiny ulp, but is no more precise than the f64 sum it was computed from. Therefore ulps are at
+/// least 2⁻³⁰ of the largest coordinate, and 2⁻¹⁰⁰ if all are 0.
 ///
-/// All in f32: the products with n are off by 2⁻²⁴ of δ, which the thousandth covers too.
+/// Everything is computed in f32: the relative error 2⁻²⁴ of the products with n is covered by the thousandth, too.
 #[inline]
 pub fn offset_origin(point: Vec3, geometric_normal: Vec3, direction: Vec3) -> Vec3 {
     const TINY: f32 = 1.0 / (1u128 << 100) as f32;
@@ -31,9 +31,9 @@ pub fn offset_origin(point: Vec3, geometric_normal: Vec3, direction: Vec3) -> Ve
     point + geometric_normal * distance.copysign(geometric_normal.dot(direction))
 }
 
-/// The distance from a number to the next greater in magnitude; 0 for numbers too small to have one in f32.
+/// The ulp of a number; 0 for numbers too small to have one in f32.
 #[inline]
 fn ulp(x: f32) -> f32 {
-    // All bits but the exponent's cleared: the greatest power of two that is not above |x|.
+    // The exponent alone: the largest power of two not above |x|.
     f32::from_bits(x.to_bits() & 0x7f80_0000) * f32::EPSILON
 }

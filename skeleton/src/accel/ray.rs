@@ -1,27 +1,27 @@
-//! What the tests of triangles and boxes need of a ray, worked out once for each ray.
+//! Rays, prepared for triangle and box tests.
 
 use glam::Vec3;
 
-/// Rounding of one operation: half an ulp, relative.
+/// Relative rounding error of one operation: half an ulp.
 const UNIT_ROUNDOFF: f32 = f32::EPSILON / 2.0;
 
-/// A ray made ready for tests of triangles.
+/// A ray prepared for triangle tests.
 #[derive(Clone, Copy)]
 pub(super) struct PreparedRay {
-    /// Where it starts.
+    /// The origin.
     pub(super) origin: [f32; 3],
-    /// Where it goes; any length.
+    /// The direction, of any length.
     pub(super) direction: [f32; 3],
-    /// The axes in the order x, y, z of the sheared space; z is that in which the direction is longest.
+    /// The axes that become x, y, z of the sheared space; the direction is largest along z.
     pub(super) axes: [usize; 3],
-    /// How much x and y change with z along the ray.
+    /// The change of x and y with z along the ray.
     pub(super) shear: [f32; 2],
-    /// The triangle that it does not hit.
+    /// The triangle that is not tested.
     pub(super) exclude: u32,
 }
 
 impl PreparedRay {
-    /// Makes a ray ready, or gives `None` if it has no direction or is not finite.
+    /// Prepares a ray; `None` if its direction is zero or a coordinate is not finite.
     #[inline(always)]
     pub(super) fn new(origin: Vec3, direction: Vec3, exclude: u32) -> Option<Self> {
         let length = direction.abs().max_element();
@@ -42,28 +42,28 @@ impl PreparedRay {
     }
 }
 
-/// A ray made ready for tests of boxes.
+/// A ray prepared for box tests.
 #[derive(Clone, Copy)]
 pub(super) struct Slabs {
-    /// For each axis, whether the ray runs against it: which of a box's two planes it meets first.
+    /// For each axis, whether the direction is negative: this determines which plane of a box comes first.
     pub(super) reversed: [bool; 3],
-    /// The origin moved so that the nearer planes of a box come too early, never too late.
+    /// The origin, shifted such that near planes are never too far.
     pub(super) near_origin: [f32; 3],
-    /// The origin moved so that the farther planes of a box come too late, never too early.
+    /// The origin, shifted such that far planes are never too near.
     pub(super) far_origin: [f32; 3],
-    /// Reciprocal direction, made smaller by more than its rounding and that of the products with it.
+    /// Reciprocal direction, decreased by more than its rounding error and that of products with it.
     pub(super) near_inverse: [f32; 3],
-    /// Reciprocal direction, made greater likewise.
+    /// Reciprocal direction, increased likewise.
     pub(super) far_inverse: [f32; 3],
 }
 
 impl Slabs {
-    /// Makes a ray ready; `bounds` are the minimum and maximum corner of the bounding box.
+    /// Prepares a ray; `bounds` are the minimum and maximum corner of the bounding box.
     ///
-    /// The slab test of Ize ("Robust BVH Ray Traversal", JCGT 2013) makes a box only as much larger as its own
-    /// rounding asks for. The triangle test rounds too: seen from the ray, it moves vertices by a few roundings
-    /// of their distance from the origin along an axis. A box must be hit whenever a triangle in it is, so the
-    /// box grows by as much, as in the appendix of Woop et al. (JCGT 2013).
+    /// The slab test of Ize ("Robust BVH Ray Traversal", JCGT 2013) enlarges a box by its own rounding error only. The
+    /// triangle test has rounding errors, too: relative to the ray, it moves vertices by a few ulps of their distance from the
+    /// origin along an axis. A box must be hit whenever a triangle in it is, so boxes are enlarged by that amount, as in the
+    /// appendix of Woop et al. (JCGT 2013).
     #[inline(always)]
     pub(super) fn new(ray: &PreparedRay, bounds: [Vec3; 2]) -> Self {
         let origin = Vec3::from(ray.origin);
@@ -77,8 +77,8 @@ impl Slabs {
             far_inverse: [0.0; 3],
         };
         for axis in 0..3 {
-            // A component of 0 gives an infinity with its sign. The distance to a plane is then infinite too,
-            // with the right sign, or not a number for a plane through the origin, which constrains nothing.
+            // A component of 0 gives an infinity of the same sign. The distance to a plane is then infinite with the
+            // correct sign, or NaN for a plane through the origin, which is no constraint.
             let inverse = 1.0 / ray.direction[axis];
             let forward = padding.copysign(inverse);
             slabs.reversed[axis] = inverse < 0.0;

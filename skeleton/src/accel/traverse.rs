@@ -1,4 +1,4 @@
-//! From the root to the triangles.
+//! Traversal.
 
 use std::mem::MaybeUninit;
 
@@ -9,13 +9,13 @@ use super::ray::{PreparedRay, Slabs};
 use super::tree::{Node, Tree};
 use super::triangle_block::Nearest;
 
-/// Room for nodes that wait for their turn. A tree made by halving needs no more than seven for each of its
-/// levels, of which there are at most 32.
+/// Maximum size of the stack. A tree built by splitting at the median needs at most seven entries per level, and has at
+/// most 32 levels.
 pub(super) const STACK_SIZE: usize = 7 * 32 + 1;
 
-/// A node's place and the distance at which its box begins, which is not negative.
+/// The index of a node and the non-negative distance to its box.
 ///
-/// The distance is in the upper half: bits of numbers that are not negative are ordered as the numbers are.
+/// The distance is in the upper half: the bits of non-negative floats are ordered like their values.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Entry(u64);
 
@@ -36,17 +36,17 @@ impl Entry {
     }
 }
 
-/// Room for a stack.
+/// Memory of a stack.
 ///
-/// Not cleared at the start, which would take as long as the traversal of a small scene.
+/// Uninitialized: clearing it would take as long as the traversal of a small scene.
 type Room = [MaybeUninit<Entry>; STACK_SIZE];
 
 const ROOM: Room = [const { MaybeUninit::uninit() }; STACK_SIZE];
 
-/// Nodes that wait for their turn.
+/// The stack of nodes to visit.
 ///
-/// It borrows its room, so that its length is not part of an array that is written to at varying places: then it stays
-/// in a register.
+/// It borrows its memory: this way its length is not stored next to an array with variable indices, and stays in a
+/// register.
 struct Stack<'a> {
     room: &'a mut Room,
     length: usize,
@@ -64,7 +64,7 @@ impl<'a> Stack<'a> {
         self.length += 1;
     }
 
-    /// Pushes onto the sorted entries from `start` on, and keeps them sorted, the nearest last.
+    /// Inserts an entry, keeping the entries from `start` on sorted with the nearest last.
     #[inline(always)]
     fn push_sorted(&mut self, start: usize, entry: Entry) {
         let mut position = self.length;
@@ -87,13 +87,13 @@ impl<'a> Stack<'a> {
 
     #[inline(always)]
     fn get(&self, index: usize) -> Entry {
-        // SAFETY: only called with indices below what `length` was at the last push, and `push` has written those.
+        // SAFETY: only called with indices below `length` at the last push, which `push` has written.
         unsafe { self.room[index].assume_init() }
     }
 }
 
 impl Node {
-    /// A bit for each child whose box the ray meets before `end`, and the distances at which the boxes begin.
+    /// Mask of the children whose boxes the ray hits before `end`, and the distances to the boxes.
     #[inline(always)]
     fn meet<V: Lanes>(&self, ray: &Slabs, end: f32) -> (u32, V) {
         let mut near = V::splat(0.0);
@@ -104,14 +104,14 @@ impl Node {
                 * V::splat(ray.near_inverse[axis]);
             let leave = (V::load(&self.planes[last]) - V::splat(ray.far_origin[axis]))
                 * V::splat(ray.far_inverse[axis]);
-            // Not a number if the ray runs within the plane; then the other operand stands.
+            // NaN if the ray is within the plane; then the other operand is returned.
             near = enter.max(near);
             far = leave.min(far);
         }
         (near.le(far), near)
     }
 
-    /// Takes the lowest bit off, and gives the node that it stands for.
+    /// Clears the lowest bit of a mask and returns the entry of its child.
     #[inline(always)]
     fn entry(&self, distances: &Row, bits: &mut u32) -> Entry {
         let lane = take_lowest(bits);
@@ -120,13 +120,13 @@ impl Node {
 }
 
 impl Tree {
-    /// Has memory begin to send a node that waits for its turn.
+    /// Prefetches a node on the stack.
     #[inline(always)]
     fn fetch<V: Lanes>(&self, entry: Entry) {
         V::fetch(self.nodes.as_ptr().wrapping_add(entry.node()));
     }
 
-    /// Replaces `nearest` by the nearest hit.
+    /// Updates `nearest` with the nearest hit.
     #[inline(always)]
     pub(super) fn intersect<V: Lanes>(&self, ray: &PreparedRay, nearest: &mut Nearest) {
         if self.nodes.is_empty() {
@@ -144,8 +144,8 @@ impl Tree {
             let (met, distances) = node.meet::<V>(&slabs, nearest.t);
             let (mut blocks, mut nodes) = (met & node.blocks, met & !node.blocks);
             let distances = distances.store();
-            // Blocks at once, in any order: which of a node's children come next is hard to foretell, and each time
-            // that the processor thinks of a block where there is a node costs more than a block too many.
+            // Blocks first, in any order: branches between blocks and nodes are hard to predict, and a misprediction costs
+            // more than an unnecessary block.
             while blocks != 0 {
                 let lane = take_lowest(&mut blocks);
                 if distances.0[lane] <= nearest.t {
@@ -154,7 +154,7 @@ impl Tree {
                 }
             }
             if nodes != 0 {
-                // The nearest next, the others later in order.
+                // The nearest next, the others later, in order.
                 let mut first = node.entry(&distances, &mut nodes);
                 let start = stack.length;
                 while nodes != 0 {
@@ -177,7 +177,7 @@ impl Tree {
         }
     }
 
-    /// True if a triangle separates the ray's origin from `target`, which is one length of the direction away.
+    /// True if a triangle separates the ray's origin from `target`, the point at one length of its direction.
     #[inline(always)]
     pub(super) fn occluded<V: Lanes>(&self, ray: &PreparedRay, target: Vec3, reach: f32) -> bool {
         if self.nodes.is_empty() {
@@ -202,8 +202,8 @@ impl Tree {
                 }
             }
             if nodes != 0 {
-                // The farthest next, the others in any order: the first blocker found ends it all, and it is seldom in what
-                // surrounds the origin.
+                // The farthest next, the others in any order: any occluder ends the traversal, and it is rarely near the
+                // origin.
                 let distances = distances.store();
                 let mut first = node.entry(&distances, &mut nodes);
                 while nodes != 0 {

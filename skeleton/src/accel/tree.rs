@@ -1,8 +1,7 @@
-//! A tree of boxes: each node has up to eight children, each a node or a block of triangles.
+//! An 8-wide bounding volume hierarchy: each node has up to eight children, nodes or blocks of triangles.
 //!
-//! [`obvhs`] makes a good binary tree. Here its upper levels are merged into nodes of eight, which fit the eight
-//! lanes that the traversal works with, and its lower ones into blocks. Among all ways to do so, the one with
-//! the min expected cost is found by dynamic programming (Ylitie, Karras, Laine, "Efficient Incoherent Ray
+//! [`obvhs`] builds a good binary tree. Its upper levels are merged into nodes with eight children, one per SIMD lane, and its
+//! lower ones into blocks. Among all ways to do so, the one with the minimum expected cost is found by dynamic programming (Ylitie, Karras, Laine, "Efficient Incoherent Ray
 //! Traversal on GPUs Through Compressed Wide BVHs", HPG 2017, section 4).
 
 use glam::Vec3;
@@ -12,22 +11,22 @@ use super::exact::Plane;
 use super::lanes::Row;
 use super::triangle_block::{Planes, TriangleBlock};
 
-/// Expected cost of visiting a node, where visiting a block costs 1.
+/// Expected cost of visiting a node, relative to that of a block.
 const NODE_COST: f32 = 1.0;
 
-/// Up to this many blocks are tested one by one, without a tree: making a ray ready for boxes and sorting children
-/// cost more than the blocks that a tree would leave out (measured with the 32 triangles of a Cornell box).
+/// Maximum number of blocks that are tested one by one, without a tree: preparing a ray for box tests and sorting children
+/// would cost more than the tree saves (measured with the 32 triangles of a Cornell box).
 const SCANNED_PACKETS: usize = 5;
 
-/// The children's boxes, and where the children are.
+/// The boxes and indices of up to eight children.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub(super) struct Node {
-    /// The planes that bound the boxes: minimum x, y, z, then maximum x, y, z. Unused lanes have empty boxes.
+    /// The planes of the boxes: minimum x, y, z, then maximum x, y, z. Unused lanes have empty boxes.
     pub(super) planes: [Row; 6],
-    /// Where the children are among the tree's blocks or, if they are nodes, among its nodes.
+    /// Indices of the children among the tree's blocks or nodes.
     pub(super) children: [u32; 8],
-    /// A bit for each child that is a block.
+    /// Mask of the children that are blocks.
     pub(super) blocks: u32,
 }
 
@@ -47,35 +46,35 @@ impl Node {
 /// Nodes and blocks.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tree {
-    /// The root is node 0. Empty if all blocks are tested one by one.
+    /// The nodes, the root first; empty if all blocks are tested one by one.
     pub(super) nodes: Vec<Node>,
-    /// Minimum and maximum coordinates.
+    /// The bounding box.
     pub(super) bounds: [Vec3; 2],
     /// The leaves.
     pub(super) blocks: Vec<TriangleBlock>,
     /// The planes of each block.
     pub(super) planes: Vec<Planes>,
-    /// Nodes on the longest way from the root to a block.
+    /// Maximum number of nodes from the root to a block.
     pub(super) depth: usize,
-    /// The most nodes that can be waiting for their turn at one time in a depth-first traversal.
+    /// Maximum size of the stack in a depth-first traversal.
     pub(super) waiting: usize,
 }
 
-/// What the dynamic programme finds for a node of the binary tree.
+/// Result of the dynamic programming for a node of the binary tree.
 #[derive(Clone, Copy, Default)]
 struct Plan {
-    /// `cost[i]`: the min cost of showing the subtree as at most i + 1 children of one node.
+    /// `cost[i]`: minimum cost of representing the subtree by at most i + 1 children of one node.
     cost: [f32; 7],
-    /// `left[i]`: how many of them come from the left child; 0 if one fewer than allowed (or one) is as good.
+    /// `left[i]`: how many of them represent the left child; 0 if one fewer than allowed (or one) is as good.
     left: [u8; 7],
-    /// The same for the subtree as a node with eight children of its own.
+    /// The same for the subtree as a node with eight children.
     left_of_eight: u8,
-    /// Whether the subtree as one child is a block.
+    /// Whether the subtree as a single child is a block.
     block: bool,
 }
 
 impl Tree {
-    /// Merges a binary tree over `triangles`; `primitives` has the index of each in the caller's list.
+    /// Collapses a binary tree over `triangles`; `primitives` has the index of each in the input.
     pub(super) fn collapse(binary: &BinaryTree, triangles: &[[Vec3; 3]], primitives: &[u32]) -> Self {
         let plans = plan(binary);
         let corners = triangles.as_flattened().iter().copied();
@@ -94,7 +93,7 @@ impl Tree {
     }
 }
 
-/// Chooses for every node of the binary tree, children before parents.
+/// Computes the plans of all nodes of the binary tree, children before parents.
 fn plan(binary: &BinaryTree) -> Vec<Plan> {
     let mut plans = vec![Plan::default(); binary.nodes.len()];
     for (index, node) in binary.nodes.iter().enumerate().rev() {
@@ -104,7 +103,7 @@ fn plan(binary: &BinaryTree) -> Vec<Plan> {
             plans[index] = Plan { cost: [block_cost; 7], block: true, ..Plan::default() };
             continue;
         };
-        // The min cost of showing both children as `count` children in all, and the share of the left one.
+        // The minimum cost of representing both subtrees by `count` children, and the number of those on the left.
         let split = |count: usize| {
             (1..count)
                 .filter(|from_left| *from_left <= 7 && count - from_left <= 7)
@@ -142,11 +141,10 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    /// Adds a node for the root of the binary tree and everything below, depth first.
+    /// Adds nodes for the whole binary tree, depth first.
     fn add_nodes(&mut self) {
         self.tree.nodes.push(Node::EMPTY);
-        // Nodes to fill: their index, the binary node they stand for, their depth, and how many children can be
-        // waiting while they are visited.
+        // Nodes to fill: index, binary node, depth, and the size of the stack when they are visited.
         let mut open = vec![(0, 0, 1, 0)];
         while let Some((index, binary_index, depth, waiting)) = open.pop() {
             let children = self.children(binary_index);
@@ -175,7 +173,7 @@ impl Builder<'_> {
         }
     }
 
-    /// The up to eight binary nodes that become the children of one.
+    /// The binary nodes that become the children of a node.
     fn children(&self, binary_index: usize) -> Vec<usize> {
         let mut children = Vec::with_capacity(8);
         let left = self.plans[binary_index].left_of_eight;
@@ -201,7 +199,7 @@ impl Builder<'_> {
         children
     }
 
-    /// Adds blocks of all triangles below the root, all but the last of them full.
+    /// Adds blocks of all triangles; all except the last one are full.
     fn add_blocks(&mut self) {
         let leaves = self.leaves(0);
         for eight in leaves.chunks(8) {
@@ -221,7 +219,7 @@ impl Builder<'_> {
         self.tree.blocks.len() as u32 - 1
     }
 
-    /// The triangles below a binary node, neighbours next to each other.
+    /// The triangles below a binary node, in depth-first order.
     fn leaves(&self, binary_index: usize) -> Vec<usize> {
         let mut leaves = Vec::new();
         let mut open = vec![binary_index];

@@ -1,13 +1,12 @@
-//! Eight triangles against one ray.
+//! Intersection of a ray with eight triangles.
 //!
 //! The test is that of Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection" (JCGT 2(1), 2013): the ray
-//! becomes the z axis of a sheared space, and three edge functions say on which side of each edge it passes.
-//! Two triangles that share an edge work out the same two products for it, and rounding keeps the order of
-//! products, so at worst an edge function is 0 where it should not be, in both of them alike. With 0 taken as
-//! inside, no ray passes between the two.
+//! becomes the z axis of a sheared space, and three edge functions tell on which side of each edge it passes. Two triangles
+//! that share an edge compute the same two products for it, and rounding preserves the order of products, so at worst an
+//! edge function is wrongly 0 in both of them. Since 0 counts as inside, no ray passes between the two.
 //!
-//! The distance decides little: whether a triangle lies before or behind a point. Where rounding could change
-//! the answer, [`exact`] gives it.
+//! The distance only decides whether a triangle is in front of a point or behind it. Where rounding could change the result,
+//! [`exact`] decides.
 
 use glam::Vec3;
 
@@ -15,17 +14,17 @@ use super::exact::{self, Plane};
 use super::lanes::{Indices, Lanes, Row, take_lowest};
 use super::ray::PreparedRay;
 
-/// Up to eight triangles, as a structure of arrays. Unused lanes are not numbers and so never hit.
+/// Up to eight triangles, as a structure of arrays. Unused lanes are NaN and never hit.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub(super) struct TriangleBlock {
-    /// Coordinates by corner and axis.
+    /// Coordinates by vertex and axis.
     pub(super) corners: [[Row; 3]; 3],
-    /// The triangles' indices in the list that the structure was built from.
+    /// Indices of the triangles in the input.
     pub(super) primitives: Indices,
 }
 
-/// The planes of a block's triangles, for close calls: apart from the block, which is read far more often.
+/// The planes of a block's triangles for [`exact`]. Separate from the block, which is read far more often.
 pub(super) type Planes = [Plane; 8];
 
 /// The index of no triangle.
@@ -34,38 +33,38 @@ pub(super) const NO_PRIMITIVE: u32 = u32::MAX;
 /// The nearest hit so far.
 #[derive(Clone, Copy)]
 pub(super) struct Nearest {
-    /// Distance in lengths of the direction; at first the end of the ray.
+    /// Distance in multiples of the direction's length; initially the end of the ray.
     pub(super) t: f32,
     /// Index of the triangle.
     pub(super) primitive: u32,
-    /// Weights of corners 1 and 2, each times `weight_sum`.
+    /// Barycentric weights of vertices 1 and 2, times `weight_sum`.
     pub(super) weights: [f32; 2],
     /// Sum of all three weights; 0 if nothing has been hit.
     pub(super) weight_sum: f32,
 }
 
-/// Where a ray passes eight triangles' planes.
+/// Intersections of a ray with the planes of eight triangles.
 struct Crossing<V> {
-    /// Lanes in which it passes through the triangle, before its origin or behind; not that which it leaves.
+    /// Mask of the lanes where the line of the ray passes through the triangle; without the excluded one.
     inside: u32,
-    /// Unnormalised barycentric weights of corners 1 and 2.
+    /// Unnormalized barycentric weights of vertices 1 and 2.
     weights: [V; 2],
-    /// Sum of all three weights. Times the direction's longest component it is n · d, n = e₁ × e₂.
+    /// Sum of all three weights. Times the direction's largest component it is n · d, n = e₁ × e₂.
     weight_sum: V,
     /// n · (v₀ − o): the origin's signed distance from the plane, times |n|.
     height: V,
-    /// Largest absolute x or y of a corner in sheared space.
+    /// Maximum absolute x or y of a vertex in sheared space.
     breadth: V,
-    /// Largest absolute z of a corner.
+    /// Maximum absolute z of a vertex.
     depth: V,
 }
 
 impl TriangleBlock {
-    /// A block without triangles.
+    /// An empty block.
     pub(super) const EMPTY: Self =
         Self { corners: [[Row([f32::NAN; 8]); 3]; 3], primitives: Indices([NO_PRIMITIVE; 8]) };
 
-    /// Puts a triangle into a lane.
+    /// Sets the triangle of a lane.
     pub(super) fn set(&mut self, lane: usize, triangle: &[Vec3; 3], primitive: u32) {
         for (rows, corner) in self.corners.iter_mut().zip(triangle) {
             for (row, coordinate) in rows.iter_mut().zip(corner.to_array()) {
@@ -75,26 +74,26 @@ impl TriangleBlock {
         self.primitives.0[lane] = primitive;
     }
 
-    /// Corner 0 of the triangle in a lane.
+    /// Vertex 0 of the triangle in a lane.
     #[inline(always)]
     fn first_corner(&self, lane: usize) -> Vec3 {
         Vec3::from_array([0, 1, 2].map(|axis| self.corners[0][axis].0[lane]))
     }
 
-    /// Settles in f64 at what distance the triangle in a lane is ahead, if it is.
+    /// Computes the distance to the triangle in a lane in f64; `None` if it is not ahead.
     #[inline(always)]
     fn distance_ahead(&self, planes: &Planes, lane: usize, ray: &PreparedRay) -> Option<f32> {
         let (origin, direction) = (Vec3::from(ray.origin), Vec3::from(ray.direction));
         exact::distance_ahead(&planes[lane], self.first_corner(lane), origin, direction)
     }
 
-    /// Settles in f64 whether the triangle in a lane separates the ray's origin from `target`.
+    /// Decides in f64 whether the triangle in a lane separates the ray's origin from `target`.
     #[inline(always)]
     fn separates(&self, planes: &Planes, lane: usize, ray: &PreparedRay, target: Vec3) -> bool {
         exact::separates(&planes[lane], self.first_corner(lane), Vec3::from(ray.origin), target)
     }
 
-    /// Replaces `nearest` by the nearest hit in this block if that is nearer.
+    /// Updates `nearest` with the nearest hit in this block.
     #[inline(always)]
     pub(super) fn intersect<V: Lanes>(&self, planes: &Planes, ray: &PreparedRay, nearest: &mut Nearest) {
         let Some(crossing) = self.cross::<V>(ray) else { return };
@@ -130,8 +129,7 @@ impl TriangleBlock {
         }
     }
 
-    /// True if a triangle has `target` and the ray's origin on different sides and the ray passes through it
-    /// between them. `target` is where the ray is after one length of its direction.
+    /// True if the ray passes through a triangle between its origin and `target`, the point at one length of its direction.
     #[inline(always)]
     pub(super) fn occludes<V: Lanes>(
         &self,
@@ -145,7 +143,7 @@ impl TriangleBlock {
         let z = ray.direction[ray.axes[2]];
         let (height, step) = (crossing.height, crossing.weight_sum * V::splat(z));
         let error = crossing.height_error(z.abs(), reach);
-        // The distance of the target from the plane, where it is behind it: |step| − |height|.
+        // The distance of the target behind the plane: |step| − |height|.
         let clearance = step.abs() - height.abs();
         let ahead = !(height.lt(zero) ^ step.lt(zero));
         let near_origin = height.abs().le(error);
@@ -164,7 +162,7 @@ impl TriangleBlock {
         false
     }
 
-    /// Where the ray passes the eight planes; `None` if it passes through no triangle.
+    /// Intersections with the eight planes; `None` if the ray passes through no triangle.
     #[inline(always)]
     fn cross<V: Lanes>(&self, ray: &PreparedRay) -> Option<Crossing<V>> {
         let [a, b, c]: [[V; 3]; 3] = [self.corner(0, ray), self.corner(1, ray), self.corner(2, ray)];
@@ -173,7 +171,7 @@ impl TriangleBlock {
         let w = b[0] * a[1] - b[1] * a[0];
         let zero = V::splat(0.0);
         let weight_sum = u + v + w;
-        // None is negative, or none is positive.
+        // All are non-negative, or all are non-positive.
         let inside =
             zero.le(u.min(v).min(w).max(zero - u.max(v).max(w))) & !V::equal(&self.primitives, ray.exclude);
         if inside == 0 {
@@ -191,7 +189,7 @@ impl TriangleBlock {
         })
     }
 
-    /// A corner of all eight triangles in sheared space.
+    /// A vertex of all eight triangles in sheared space.
     #[inline(always)]
     fn corner<V: Lanes>(&self, corner: usize, ray: &PreparedRay) -> [V; 3] {
         let [kx, ky, kz] = ray.axes;
@@ -209,13 +207,12 @@ fn largest<V: Lanes>(a: V, b: V, c: V) -> V {
 }
 
 impl<V: Lanes> Crossing<V> {
-    /// A bound on the error of `height`, and of `height` minus `step` times the direction's longest component.
+    /// A bound on the error of `height`, and of `height` minus `step` times the direction's largest component.
     ///
-    /// With u = 2⁻²⁴, b = breadth, z = depth, m = b + z (no coordinate of a corner relative to the origin is
-    /// greater, since the shears are at most 1): sheared coordinates are within 5um, so an edge function is
-    /// within 24umb, their sum within 72umb, and the sum weighted with the z coordinates within 96umbz.
-    /// `reach`, a bound on the coordinates of a point that is itself rounded to f32, brings in up to
-    /// u·reach·(|n₁| + |n₂| + |n₃|), and no component of n is greater than 24b(b + z).
+    /// With u = 2⁻²⁴, b = breadth, z = depth, m = b + z (a bound on the coordinates of vertices relative to the
+    /// origin, since the shears are at most 1): sheared coordinates have an error of up to 5um, edge functions 24umb, their
+    /// sum 72umb, and the sum weighted by the z coordinates 96umbz. `reach` bounds the coordinates of a point that is itself
+    /// rounded to f32; it adds up to u·reach·(|n₁| + |n₂| + |n₃|), and the components of n are at most 24b(b + z).
     #[inline(always)]
     fn height_error(&self, step: f32, reach: f32) -> V {
         let size = self.breadth + self.depth;

@@ -14,8 +14,8 @@ use crate::integrator::Technique;
 
 /// Renders a scene.
 ///
-/// All randomness comes from the seed: the same command line renders the same image, bit by bit, with any number of
-/// threads.
+/// All randomness comes from the seed: the same command line renders the same image, down to the last bit, with
+/// any number of threads.
 #[derive(Debug, Parser)]
 #[command(name = "arty", version, max_term_width = 100, after_help = SHORT_EXAMPLES, after_long_help = EXAMPLES)]
 pub(super) struct Args {
@@ -23,11 +23,11 @@ pub(super) struct Args {
     #[arg(value_name = "SCENE.yml")]
     pub(super) scene: PathBuf,
 
-    /// The algorithm
+    /// Rendering algorithm
     #[arg(short, long, value_enum, default_value_t = Algo::Pt, help_heading = ALGORITHM)]
     pub(super) algo: Algo,
 
-    /// The estimator of the path tracer
+    /// Estimator of the path tracer
     #[arg(long, value_enum, default_value_t = Technique::Mis, help_heading = ALGORITHM)]
     pub(super) technique: Technique,
 
@@ -259,8 +259,8 @@ mod tests {
             ("arty x.yml --time=NaN", "seconds above 0"),
             ("arty x.yml --exposure=NaN", "from -100 to 100"),
             ("arty x.yml --threads=0", "1..=1024"),
-            ("arty x.yml --output=x.jpg", "ends in .png or .exr"),
-            ("arty x.yml --output=x", "ends in .png or .exr"),
+            ("arty x.yml --output=x.jpg", "must end in .png or .exr"),
+            ("arty x.yml --output=x", "must end in .png or .exr"),
             ("arty x.yml --seed=-1", "--seed"),
             ("arty x.yml --max-bounces=1.5", "--max-bounces"),
             ("arty x.yml --show=albedo", "--algo=debug"),

@@ -54,7 +54,7 @@ pub enum Algorithm {
 pub enum DebugView {
     /// Shading normals: x, y, z in [-1, 1] as red, green, blue in [0, 1].
     Normals,
-    /// Albedo: the fraction of light that surfaces scatter.
+    /// The fraction of light that surfaces scatter.
     Albedo,
 }
 

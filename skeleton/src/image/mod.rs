@@ -1,4 +1,4 @@
-//! Images: in memory, compared with others, in files (OpenEXR, PNG), and live in a viewer.
+//! Images: in memory, error metrics, files (OpenEXR, PNG), live view.
 
 use std::ops::{Index, IndexMut};
 
@@ -14,9 +14,8 @@ pub mod tev;
 pub use png::write_png;
 pub use save::{check_writable, write_aside};
 
-/// A rectangle of linear colours.
+/// An image of linear RGB values, such as radiance or its variance.
 ///
-/// What a value means (radiance, variance of its mean, …) is for the user of the image to say.
 /// `image[(x, y)]` is column `x`, counted from the left, of row `y`, counted from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
@@ -31,13 +30,13 @@ impl Image {
         Self { width, height, pixels: vec![Rgb::BLACK; width * height] }
     }
 
-    /// An image of pixels given row by row from the top, each row from the left.
+    /// An image from its pixels, row by row from the top, each row from the left.
     ///
     /// # Panics
     ///
     /// If there are not `width * height` pixels.
     pub fn from_pixels(width: usize, height: usize, pixels: Vec<Rgb>) -> Self {
-        assert_eq!(pixels.len(), width * height, "a picture of {width} x {height} pixels");
+        assert_eq!(pixels.len(), width * height, "an image of {width} x {height} pixels");
         Self { width, height, pixels }
     }
 
@@ -56,15 +55,15 @@ impl Image {
         &self.pixels
     }
 
-    /// All pixels to write to, in the same order as [`Image::pixels`].
+    /// All pixels, mutable, in the same order as [`Image::pixels`].
     pub fn pixels_mut(&mut self) -> &mut [Rgb] {
         &mut self.pixels
     }
 
-    /// Where a pixel stands in [`Image::pixels`].
+    /// The index of a pixel in [`Image::pixels`].
     fn position(&self, (x, y): (usize, usize)) -> usize {
-        // Without this check a column too far to the right would be a pixel of the next row.
-        assert!(x < self.width, "column {x} of a picture {} wide", self.width);
+        // Without this check a column beyond the right edge would be a pixel of the next row.
+        assert!(x < self.width, "column {x} of an image of width {}", self.width);
         y * self.width + x
     }
 }
@@ -84,10 +83,10 @@ impl IndexMut<(usize, usize)> for Image {
     }
 }
 
-/// The names of the red, green and blue channel of a layer, as OpenEXR's convention and tev have them.
+/// Names of the red, green and blue channel of a layer, by the convention of OpenEXR and tev.
 ///
-/// The layer with the empty name is the image that a viewer shows first: its channels are `R`, `G` and
-/// `B`. Those of the layer `variance` are `variance.R`, `variance.G` and `variance.B`.
+/// The layer with the empty name is the main image with the channels `R`, `G` and `B`. Those of the layer `variance` are
+/// `variance.R`, `variance.G` and `variance.B`.
 pub fn channel_names(layer: &str) -> [String; 3] {
     ["R", "G", "B"].map(|channel| match layer {
         "" => channel.to_owned(),
@@ -100,7 +99,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pixels_are_counted_row_by_row_from_the_top_left() {
+    fn pixels_are_ordered_row_by_row_from_the_top_left() {
         let pixels: Vec<Rgb> = (0..6).map(|i| Rgb::gray(i as f32)).collect();
         let mut image = Image::from_pixels(3, 2, pixels);
         assert_eq!(image[(2, 0)], Rgb::gray(2.0));
@@ -110,13 +109,13 @@ mod tests {
     }
 
     #[test]
-    #[should_panic(expected = "column 3 of a picture 3 wide")]
+    #[should_panic(expected = "column 3 of an image of width 3")]
     fn a_column_beyond_the_right_edge_is_not_a_pixel_of_the_next_row() {
         let _ = Image::new(3, 2)[(3, 0)];
     }
 
     #[test]
-    fn channels_of_a_layer_carry_its_name() {
+    fn channel_names_contain_the_layer() {
         assert_eq!(channel_names(""), ["R", "G", "B"]);
         assert_eq!(channel_names("variance"), ["variance.R", "variance.G", "variance.B"]);
     }

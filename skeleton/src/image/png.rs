@@ -1,4 +1,4 @@
-//! Images to look at: 8-bit sRGB in a PNG file.
+//! PNG files: 8-bit sRGB, for viewing.
 
 use std::path::Path;
 
@@ -10,20 +10,19 @@ use crate::diagnostic::Diagnostic;
 use crate::math::Rgb;
 use crate::srgb::{exposure_factor, linear_to_srgb_u8};
 
-/// The colour of a pixel that is not a number, so that nobody takes it for a dark one: magenta.
+/// The colour of NaN pixels, which should not be mistaken for dark ones: magenta.
 const NOT_A_NUMBER: [u8; 3] = [255, 0, 255];
 
-/// Writes an image as PNG, brightened by `exposure` stops and cut off at the display's black and white.
+/// Writes an image as PNG with an exposure in stops, clamped to [0, 1].
 ///
-/// A pixel with a NaN is magenta. An infinite channel is as bright as it can be.
+/// Pixels with a NaN are magenta; infinite channels are at the maximum.
 ///
 /// # Errors
 ///
-/// If the image has no pixels or too many columns or rows for PNG, or as [`write_aside`]; an earlier
-/// file is kept then.
+/// If the image has no pixels or is too large for PNG, or as [`write_aside`]; an existing file is kept then.
 pub fn write_png(path: &Path, image: &Image, exposure: f32) -> Result<(), Diagnostic> {
     let side = |length: usize| {
-        // The format keeps the highest bit unused.
+        // PNG does not use the highest bit.
         u32::try_from(length).ok().filter(|length| (1..1 << 31).contains(length)).ok_or_else(|| {
             let (width, height) = (image.width(), image.height());
             Diagnostic::about(path, format!("a PNG file cannot hold {width} x {height} pixels"))
@@ -37,7 +36,7 @@ pub fn write_png(path: &Path, image: &Image, exposure: f32) -> Result<(), Diagno
     })
 }
 
-/// What a pixel looks like after multiplication with the factor of the exposure.
+/// The sRGB levels of a pixel, multiplied by the exposure factor.
 fn displayed(pixel: Rgb, factor: f32) -> [u8; 3] {
     let channels = pixel.to_array();
     if channels.iter().any(|channel| channel.is_nan()) {
@@ -60,7 +59,7 @@ mod tests {
     }
 
     #[test]
-    fn known_radiances_have_known_levels() {
+    fn linear_values_are_encoded_as_srgb() {
         let pixels = [0.0, 0.003_130_8, 0.18, 0.5, 1.0, 7.0, -1.0].map(Rgb::gray);
         let levels = [0, 10, 118, 188, 255, 255, 0].map(|level| [level; 3]);
         assert_eq!(written(pixels.to_vec(), 0.0), levels);
@@ -74,7 +73,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_a_number_is_magenta_and_infinity_is_white() {
+    fn nan_is_magenta_and_infinity_is_white() {
         let (nan, infinity) = (f32::NAN, f32::INFINITY);
         let pixels = vec![
             Rgb::new(0.0, nan, 0.0),
@@ -83,11 +82,11 @@ mod tests {
             Rgb::new(infinity, 0.0, 0.0),
         ];
         assert_eq!(written(pixels.clone(), 0.0), [[255, 0, 255], [255; 3], [0; 3], [255, 0, 0]]);
-        assert_eq!(written(pixels, -3.0)[1], [255; 3], "no exposure darkens infinity");
+        assert_eq!(written(pixels, -3.0)[1], [255; 3], "infinity stays white at any exposure");
     }
 
     #[test]
-    fn rows_go_from_top_to_bottom() {
+    fn rows_are_written_from_top_to_bottom() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("picture.png");
         let mut image = Image::new(2, 3);
@@ -100,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn an_image_without_pixels_is_an_error_and_the_earlier_file_stays() {
+    fn an_image_without_pixels_is_an_error_and_keeps_the_earlier_file() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("picture.png");
         std::fs::write(&path, "earlier").expect("writing works");

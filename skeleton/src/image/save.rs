@@ -1,4 +1,4 @@
-//! Writing a file so that it is there whole or not at all.
+//! Atomic writing of files.
 
 use std::fmt::Display;
 use std::fs::File;
@@ -9,61 +9,58 @@ use tempfile::NamedTempFile;
 
 use crate::diagnostic::Diagnostic;
 
-/// Writes a file aside and moves it to `path` once it is complete.
+/// Writes a temporary file and renames it to `path` once it is complete.
 ///
-/// Whoever reads `path` meanwhile, also after a failure in the middle, finds the earlier file there (or
-/// none), never half of the new one. What was written of the new one is removed if `write` fails. The
-/// file is not forced to the disk: a loss of power soon afterwards may lose it.
+/// Other processes see either the earlier file (or none) or the complete new one, even after a failure. If `write` fails,
+/// the temporary file is removed. The file is not synced to disk: a power failure soon afterwards may lose it.
 ///
 /// # Errors
 ///
-/// What `write` failed with, or why the file cannot be there: its folder is missing or may not be written
-/// to, the disk is full, `path` is a folder.
+/// The error of `write`, or why the file cannot be created: the folder is missing or read-only, the disk is full, `path` is
+/// a folder.
 pub fn write_aside<E: Display>(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<&File>) -> Result<(), E>,
 ) -> Result<(), Diagnostic> {
-    // If anything fails from here on, dropping the temporary file removes it.
+    // From here on, dropping the temporary file after a failure removes it.
     let temporary = temporary_beside(path)?;
     let mut writer = BufWriter::new(temporary.as_file());
     write(&mut writer).map_err(|error| cannot_write(path, &error))?;
-    // Dropping the writer would flush too, but swallow the error of a full disk.
+    // Dropping the writer would flush as well, but ignore errors such as a full disk.
     writer.flush().map_err(|error| cannot_write(path, &error))?;
     drop(writer);
     temporary.persist(path).map_err(|error| cannot_write(path, &error.error))?;
     Ok(())
 }
 
-/// Finds out whether [`write_aside`] would have a place for a file, before the work to fill it is done.
-///
-/// Neither the file nor an earlier one of that name is touched.
+/// Checks in advance whether [`write_aside`] can create a file. Does not touch an existing file.
 ///
 /// # Errors
 ///
-/// Why the file cannot be there: its folder is missing or may not be written to, `path` is a folder.
+/// Why the file cannot be created: the folder is missing or read-only, `path` is a folder.
 pub fn check_writable(path: &Path) -> Result<(), Diagnostic> {
     temporary_beside(path).map(drop)
 }
 
-/// An empty file in the folder of `path`, which is removed when it is dropped.
+/// An empty temporary file in the folder of `path`.
 fn temporary_beside(path: &Path) -> Result<NamedTempFile, Diagnostic> {
     let Some(name) = path.file_name() else {
-        return Err(cannot_write(path, &"this does not name a file"));
+        return Err(cannot_write(path, &"not a file name"));
     };
     if path.is_dir() {
-        return Err(cannot_write(path, &"this is a folder"));
+        return Err(cannot_write(path, &"it is a folder"));
     }
-    // The temporary file has to be in the same folder, since a file can only be renamed on the same disk.
+    // In the same folder, since files can be renamed within a file system only.
     let folder = folder_of(path);
     if !folder.is_dir() {
-        return Err(cannot_write(path, &format_args!("there is no folder {}", folder.display())));
+        return Err(cannot_write(path, &format_args!("no such folder: {}", folder.display())));
     }
 
     let mut prefix = std::ffi::OsString::from(".");
     prefix.push(name);
     let mut builder = tempfile::Builder::new();
     builder.prefix(&prefix).suffix(".part");
-    // The result is no secret: without this, only its owner could read it.
+    // By default only the owner could read a temporary file.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
 
@@ -74,9 +71,9 @@ fn cannot_write(path: &Path, reason: &dyn Display) -> Diagnostic {
     Diagnostic::about(path, format!("cannot be written: {reason}"))
 }
 
-/// The folder that a file lies in.
+/// The folder of a file.
 fn folder_of(path: &Path) -> &Path {
-    // The parent of a bare file name is the empty path, which names no folder.
+    // The parent of a bare file name is the empty path.
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
@@ -93,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn a_complete_file_replaces_the_earlier_one_and_nothing_else_stays() {
+    fn a_complete_file_replaces_the_earlier_one() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("result.txt");
         for text in ["first", "second"] {
@@ -104,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn a_failure_in_the_middle_keeps_the_earlier_file_and_leaves_no_rest() {
+    fn a_failure_keeps_the_earlier_file_and_leaves_no_temporary_file() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("result.txt");
         fs::write(&path, "earlier").expect("writing works");
@@ -120,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn a_panic_in_the_middle_keeps_the_earlier_file_and_leaves_no_rest() {
+    fn a_panic_keeps_the_earlier_file_and_leaves_no_temporary_file() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("result.txt");
         fs::write(&path, "earlier").expect("writing works");
@@ -132,25 +129,25 @@ mod tests {
     }
 
     #[test]
-    fn what_stands_in_the_way_is_named() {
+    fn errors_name_the_obstacle() {
         let folder = tempfile::tempdir().expect("a folder");
         fs::write(folder.path().join("file"), "").expect("writing works");
         let cases = [
-            (folder.path().join("missing/x.txt"), "there is no folder"),
-            (folder.path().join("file/x.txt"), "there is no folder"),
-            (folder.path().to_owned(), "this is a folder"),
-            (folder.path().join(".."), "this does not name a file"),
+            (folder.path().join("missing/x.txt"), "no such folder"),
+            (folder.path().join("file/x.txt"), "no such folder"),
+            (folder.path().to_owned(), "it is a folder"),
+            (folder.path().join(".."), "not a file name"),
         ];
         for (path, reason) in cases {
             let error = write_aside(&path, |file| file.write_all(b"x")).expect_err("this cannot work");
             assert_eq!(error.file, path);
             assert!(error.message.contains(reason), "{error}");
-            assert_eq!(check_writable(&path), Err(error), "known beforehand");
+            assert_eq!(check_writable(&path), Err(error), "detected in advance");
         }
     }
 
     #[test]
-    fn a_check_beforehand_touches_nothing() {
+    fn checking_in_advance_touches_nothing() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("result.txt");
         check_writable(&path).expect("nothing is in the way");
@@ -160,10 +157,10 @@ mod tests {
         assert_eq!(fs::read_to_string(&path).expect("the file is there"), "earlier");
     }
 
-    // Not even the superuser can create a file there.
+    // Not even root can create a file there.
     #[cfg(target_os = "linux")]
     #[test]
-    fn a_folder_that_may_not_be_written_to_is_an_error() {
+    fn a_read_only_folder_is_an_error() {
         let error = write_aside(Path::new("/proc/result.txt"), |file| file.write_all(b"x"))
             .expect_err("this cannot work");
         assert!(error.message.starts_with("cannot be written: "), "{error}");
@@ -171,7 +168,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn others_may_read_the_result_if_they_may_read_any_new_file() {
+    fn the_file_has_the_default_permissions() {
         use std::os::unix::fs::PermissionsExt;
         let folder = tempfile::tempdir().expect("a folder");
         let (ours, plain) = (folder.path().join("ours"), folder.path().join("plain"));
@@ -182,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bare_file_name_lies_in_the_current_folder() {
+    fn a_bare_file_name_is_in_the_current_folder() {
         assert_eq!(folder_of(Path::new("result.txt")), Path::new("."));
         assert_eq!(folder_of(Path::new("out/result.txt")), Path::new("out"));
     }

@@ -1,4 +1,4 @@
-//! An image that grows before one's eyes: live view in [tev](https://github.com/Tom94/tev).
+//! Live view in [tev](https://github.com/Tom94/tev).
 
 use std::io;
 use std::net::{TcpStream, ToSocketAddrs};
@@ -8,22 +8,21 @@ use tev_client::{PacketCreateImage, PacketUpdateImage, TevClient};
 
 use super::{Image, channel_names};
 
-/// Where tev listens unless told otherwise.
+/// The default address of tev.
 pub const DEFAULT_ADDRESS: &str = "127.0.0.1:14158";
 
-/// The port of [`DEFAULT_ADDRESS`], for an address that names only a host.
+/// The default port, for addresses without one.
 const DEFAULT_PORT: u16 = 14158;
 
-/// How long to wait for the viewer to accept a connection, and then each time to take some data.
+/// Timeout for connecting, and for each write.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// Pixels are sent in bands of rows of about this many, so that a packet stays small and the image
-/// appears bit by bit.
+/// Approximate number of pixels per packet, so that packets are small and the image appears gradually.
 const PIXELS_PER_PACKET: usize = 1 << 18;
 
-/// The viewer cannot be reached, or can no longer. Rendering goes on without it, hence this is a warning.
+/// The viewer is not reachable, or no longer. Rendering continues without it, so this is a warning.
 #[derive(Debug, thiserror::Error)]
-#[error("the tev viewer at {address} cannot be reached ({reason}); rendering goes on without it")]
+#[error("cannot reach the tev viewer at {address} ({reason}); continuing without it")]
 pub struct ViewerLost {
     address: String,
     reason: io::Error,
@@ -33,8 +32,8 @@ pub struct ViewerLost {
 #[derive(Debug)]
 pub struct LiveView {
     address: String,
-    picture_name: String,
-    /// None once the viewer was lost.
+    image_name: String,
+    /// `None` once the connection is lost.
     client: Option<TevClient>,
 }
 
@@ -44,47 +43,46 @@ impl LiveView {
     ///
     /// # Errors
     ///
-    /// If no viewer takes the connection within two seconds (for each address that the host has; looking up a
-    /// host by name has a time limit of its own).
+    /// If no viewer accepts the connection within two seconds (per address of the host; DNS lookup has its own timeout).
     pub fn open(
         address: &str,
-        picture_name: &str,
+        image_name: &str,
         width: u32,
         height: u32,
         layers: &[&str],
     ) -> Result<Self, ViewerLost> {
         let lost = |reason| ViewerLost { address: address.to_owned(), reason };
         let mut client = TevClient::wrap(connect(address).map_err(lost)?);
-        // The protocol ends names at a zero byte.
-        let picture_name = picture_name.replace('\0', "");
+        // In the protocol, names end at a zero byte.
+        let image_name = image_name.replace('\0', "");
         let channels: Vec<String> = layers.iter().flat_map(|layer| channel_names(layer)).collect();
         client
             .send(PacketCreateImage {
-                image_name: &picture_name,
+                image_name: &image_name,
                 grab_focus: true,
                 width,
                 height,
                 channel_names: &channels,
             })
             .map_err(lost)?;
-        Ok(Self { address: address.to_owned(), picture_name, client: Some(client) })
+        Ok(Self { address: address.to_owned(), image_name, client: Some(client) })
     }
 
-    /// Shows `image`, which has the size of the image, as one of its layers.
+    /// Sends `image`, which must have the size given to [`open`](Self::open), as one of the layers.
     ///
     /// # Errors
     ///
-    /// The first time that the viewer does not take the data. Later calls do nothing.
+    /// The first failure to send data. Later calls do nothing.
     pub fn show(&mut self, layer: &str, image: &Image) -> Result<(), ViewerLost> {
         let Some(client) = &mut self.client else { return Ok(()) };
-        send(client, &self.picture_name, layer, image).map_err(|reason| {
+        send(client, &self.image_name, layer, image).map_err(|reason| {
             self.client = None;
             ViewerLost { address: self.address.clone(), reason }
         })
     }
 }
 
-/// Connects to the first of the host's addresses that answers.
+/// Connects to the first address of the host that answers.
 fn connect(address: &str) -> io::Result<TcpStream> {
     let candidates: Vec<_> = match address.contains(':') {
         true => address.to_socket_addrs()?.collect(),
@@ -103,9 +101,9 @@ fn connect(address: &str) -> io::Result<TcpStream> {
 }
 
 /// Sends all pixels of a layer.
-fn send(client: &mut TevClient, picture_name: &str, layer: &str, image: &Image) -> io::Result<()> {
+fn send(client: &mut TevClient, image_name: &str, layer: &str, image: &Image) -> io::Result<()> {
     let width = image.width();
-    // A packet without pixels is not allowed.
+    // Packets without pixels are not allowed.
     if width == 0 {
         return Ok(());
     }
@@ -113,10 +111,10 @@ fn send(client: &mut TevClient, picture_name: &str, layer: &str, image: &Image) 
     for (band, pixels) in image.pixels().chunks(rows_per_packet * width).enumerate() {
         let data: Vec<f32> = pixels.iter().flat_map(|pixel| pixel.to_array()).collect();
         client.send(PacketUpdateImage {
-            image_name: picture_name,
+            image_name,
             grab_focus: false,
             channel_names: &channel_names(layer),
-            // Red, green and blue of a pixel stand side by side.
+            // The channels are interleaved.
             channel_offsets: &[0, 1, 2],
             channel_strides: &[3, 3, 3],
             x: 0,

@@ -1,41 +1,41 @@
-//! What an integrator has called for one path, and what it got.
+//! Recording of the calls that an integrator makes for one path, with arguments and results.
 //!
-//! Recording is off until [`start_recording`] switches it on for the current thread; then each call leaves a line.
+//! Recording is off until [`start_recording`] enables it for the current thread.
 
 use std::cell::{Cell, RefCell};
 
 use super::Key;
 use crate::math::{Rgb, Vec3};
 
-/// Calls that are kept of one path; the rest are only counted.
-const MOST_CALLS: usize = 10_000;
+/// Maximum number of calls recorded for one path; further calls are only counted.
+const MAX_CALLS: usize = 10_000;
 
 /// One call of an integrator.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Call {
-    /// What was called, as in `Scene::intersect`.
+    /// The function, such as `Scene::intersect`.
     pub function: &'static str,
-    /// What it was given.
+    /// Arguments.
     pub given: Vec<Value>,
-    /// What it gave; nothing for `None`.
+    /// Results; empty for `None`.
     pub got: Vec<Value>,
 }
 
-/// A named value of a [`Call`]: a number, a vector or colour, or a truth value as 0 or 1.
+/// A named value of a [`Call`]: a number, a vector, a colour, or a boolean as 0 or 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Value {
-    /// What it is, as the interface calls it.
+    /// The name of the argument or result.
     pub name: &'static str,
-    /// Its numbers.
+    /// The components.
     pub numbers: Vec<f32>,
 }
 
 /// All calls of one path.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recording {
-    /// The first of them, in order.
+    /// The first calls, in order.
     pub calls: Vec<Call>,
-    /// How many more there were.
+    /// Number of calls that were not recorded.
     pub left_out: u64,
 }
 
@@ -44,20 +44,20 @@ thread_local! {
     static CALLS: RefCell<Recording> = const { RefCell::new(Recording { calls: Vec::new(), left_out: 0 }) };
 }
 
-/// Begins to record the calls of this thread.
+/// Starts recording on this thread.
 pub fn start_recording(_: &Key) {
     CALLS.take();
     RECORDING.set(true);
 }
 
-/// Ends that, and gives what was recorded.
+/// Stops recording on this thread and returns the recording.
 pub fn take_recording(_: &Key) -> Recording {
     RECORDING.set(false);
     CALLS.take()
 }
 
-/// Adds a call, if anybody listens. What makes the call should be a function that is not inlined: it would be compiled
-/// again with every hand-in.
+/// Records a call if recording is enabled. `call` should call a function that is not inlined, or every submission would
+/// compile it again.
 #[inline]
 pub(crate) fn record(call: impl FnOnce() -> Call) {
     if RECORDING.get() {
@@ -68,7 +68,7 @@ pub(crate) fn record(call: impl FnOnce() -> Call) {
 #[cold]
 fn keep(call: Call) {
     CALLS.with_borrow_mut(|recording| {
-        if recording.calls.len() < MOST_CALLS {
+        if recording.calls.len() < MAX_CALLS {
             recording.calls.push(call);
         } else {
             recording.left_out += 1;
@@ -77,25 +77,25 @@ fn keep(call: Call) {
 }
 
 impl Call {
-    /// A call that was given and gave nothing yet.
+    /// A call without arguments and results.
     pub(crate) fn new(function: &'static str) -> Self {
         Self { function, given: Vec::new(), got: Vec::new() }
     }
 
-    /// The same with something that it was given.
+    /// Adds an argument.
     pub(crate) fn given(mut self, name: &'static str, value: impl Numbers) -> Self {
         self.given.push(Value { name, numbers: value.numbers() });
         self
     }
 
-    /// The same with something that it gave.
+    /// Adds a result.
     pub(crate) fn got(mut self, name: &'static str, value: impl Numbers) -> Self {
         self.got.push(Value { name, numbers: value.numbers() });
         self
     }
 }
 
-/// What can be written down as numbers.
+/// Values that can be recorded as numbers.
 pub(crate) trait Numbers {
     fn numbers(self) -> Vec<f32>;
 }

@@ -1,34 +1,34 @@
-//! Random numbers that fill [0, 1) more evenly than chance would.
+//! Stratified random numbers.
 
 use std::cell::Cell;
 
 use super::Key;
 
-/// The integrator's own numbers (not those that the framework draws) for one of many paths: the k-th number of all paths
-/// together has exactly one value in each of `count` equal strata, in an order that differs from k to k. So whatever
-/// share of the paths an integrator sends one way by comparing one number, that share is exact to 1 / `count`
-/// (McKay, Beckman, Conover, Technometrics 21(2), 1979).
+/// Latin hypercube sampling of the integrator's own random numbers (not of those that the framework draws) over many paths:
+/// the k-th numbers of all paths have exactly one value in each of `count` equal strata, in a different order for each k. So
+/// the fraction of paths for which one number is below a threshold is exact to 1 / `count` (McKay, Beckman, Conover,
+/// Technometrics 21(2), 1979).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Strata {
-    /// The number of the path, below `count`.
+    /// Index of the path, less than `count`.
     pub path: u32,
-    /// How many paths there are: a power of two, at most 2²⁰.
+    /// Number of paths: a power of two, at most 2²⁰.
     pub count: u32,
-    /// Decides the orders.
+    /// Seed of the permutations.
     pub seed: u32,
 }
 
 thread_local! {
-    /// The strata of the path that this thread follows, and how many numbers it has taken.
+    /// The strata of the current path of this thread, and the number of values drawn so far.
     static STRATA: Cell<Option<(Strata, u32)>> = const { Cell::new(None) };
 }
 
-/// From now on this thread's own numbers are those of these strata; as ever, for `None`.
+/// Stratifies the integrator's own numbers on this thread from now on; `None` ends this.
 pub fn set_strata(_: &Key, strata: Option<Strata>) {
     STRATA.set(strata.map(|strata| (strata, 0)));
 }
 
-/// Puts an own number into its stratum.
+/// Moves a number of the integrator's into its stratum, if strata are set.
 #[inline]
 pub(crate) fn stratified(number: f32) -> f32 {
     let Some((strata, taken)) = STRATA.get() else { return number };
@@ -39,11 +39,11 @@ pub(crate) fn stratified(number: f32) -> f32 {
 impl Strata {
     fn place(&self, dimension: u32, number: f32) -> f32 {
         let place = (self.stratum(dimension) as f32 + number) / self.count as f32;
-        // Rounding must not make it 1.
+        // Rounding must not reach 1.
         place.min(1.0 - f32::EPSILON / 2.0)
     }
 
-    /// A permutation of the paths, another one for each dimension: odd factors and shifts onto lower bits can be undone.
+    /// A permutation of the paths, different for each dimension: odd factors and xor-shifts are invertible.
     fn stratum(&self, dimension: u32) -> u32 {
         let mask = self.count - 1;
         let key =
@@ -64,7 +64,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_stratum_has_one_path_in_an_order_that_differs() {
+    fn each_stratum_has_one_path_in_a_different_order_per_dimension() {
         for count in [1, 2, 4, 64, 4096] {
             let order = |dimension: u32| -> Vec<u32> {
                 (0..count).map(|path| Strata { path, count, seed: 7 }.stratum(dimension)).collect()
@@ -79,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_stay_below_one_and_come_back_as_ever_afterwards() {
+    fn numbers_are_below_one_and_unchanged_without_strata() {
         let strata = Strata { path: 0, count: 1 << 20, seed: 3 };
         for dimension in 0..1000 {
             let number = strata.place(dimension, 1.0 - f32::EPSILON / 2.0);

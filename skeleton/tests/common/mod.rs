@@ -1,4 +1,4 @@
-//! What the tests of the renderer share. Each test program uses a part of it.
+//! Shared by the tests of the renderer; each test uses a part of it.
 #![allow(dead_code, reason = "each test program is compiled with all of it")]
 
 pub(crate) mod formulas;

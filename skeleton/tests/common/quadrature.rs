@@ -1,4 +1,4 @@
-//! Integrals over directions, in double precision.
+//! Quadrature over directions, in double precision.
 
 use std::f64::consts::{PI, TAU};
 
@@ -26,7 +26,7 @@ impl Polar {
         (sin * (phi.cos() * self.x + phi.sin() * self.y) + (1.0 - t) * self.axis).normalize().as_vec3()
     }
 
-    /// (1 − cos α, φ / 2π) of a direction; exact close to the axis, where the cosine is not.
+    /// (1 − cos α, φ / 2π) of a direction; accurate close to the axis, unlike the cosine.
     pub(crate) fn coordinates(&self, direction: Vec3) -> (f64, f64) {
         let w = direction.as_dvec3().normalize();
         let phi = w.dot(self.y).atan2(w.dot(self.x));
@@ -35,8 +35,8 @@ impl Polar {
 }
 
 /// The integral of `density` over a part of a ring around the axis of `polar`: 1 − cos α between the two bounds of
-/// `t`, φ / 2π between those of `turn`. Midpoint rule over `steps²` patches, for each doubling of t anew, so that
-/// narrow lobes are met wherever they end.
+/// `t`, φ / 2π between those of `turn`. Midpoint rule over `steps²` patches for each doubling of t, so that narrow
+/// lobes are resolved.
 pub(crate) fn over_ring(
     polar: &Polar,
     (t_low, t_high): (f64, f64),
@@ -48,7 +48,7 @@ pub(crate) fn over_ring(
     let mut low = t_low;
     while low < t_high {
         let next: f64 = if low == 0.0 { 1e-9 } else { 2.0 * low };
-        // Powers of the cosine end at a right angle, some of them with a jump.
+        // Powers of the cosine vanish at a right angle, some of them with a jump.
         let next = if low < 1.0 { next.min(1.0) } else { next };
         let high = next.min(t_high);
         let patch = (high - low) * (turn_high - turn_low) * TAU / (steps * steps) as f64;
@@ -77,7 +77,7 @@ pub(crate) fn over_square(steps: usize, value: impl Fn(f64, f64) -> f64) -> f64 
     sum / (steps * steps) as f64
 }
 
-/// Directions spread evenly over the sphere, each with the same solid angle (a Fibonacci spiral).
+/// Evenly distributed directions with equal solid angles (Fibonacci spiral).
 pub(crate) fn spiral(count: usize) -> impl Iterator<Item = (Vec3, f64)> {
     (0..count).map(move |i| {
         let z = 1.0 - (2.0 * i as f64 + 1.0) / count as f64;

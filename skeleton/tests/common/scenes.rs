@@ -1,4 +1,4 @@
-//! Scenes made from numbers.
+//! Procedural scenes.
 
 use std::collections::HashMap;
 
@@ -10,7 +10,7 @@ use arty::scene::{
     Specular,
 };
 
-/// An empty scene, seen by a camera in the origin that looks along −z.
+/// An empty scene with a camera at the origin that looks along −z.
 pub(crate) fn empty() -> SceneDescription {
     SceneDescription {
         camera: CameraDescription { eye: Vec3::ZERO, center: Vec3::NEG_Z, up: Vec3::Y, fov: 60.0 },
@@ -22,7 +22,7 @@ pub(crate) fn empty() -> SceneDescription {
     }
 }
 
-/// A material that is black in every respect.
+/// A black material.
 pub(crate) fn black() -> Material {
     Material {
         name: "black".into(),
@@ -38,7 +38,7 @@ pub(crate) fn diffuse(reflectance: f32) -> Material {
     Material { diffuse: Rgb::gray(reflectance), ..black() }
 }
 
-/// A Phong lobe by itself.
+/// A Phong lobe only.
 pub(crate) fn phong(reflectance: f32, exponent: f32) -> Material {
     Material { specular: Specular::Phong { reflectance: Rgb::gray(reflectance), exponent }, ..black() }
 }
@@ -78,7 +78,7 @@ pub(crate) fn add_lights(scene: &mut SceneDescription, triangles: &[[Vec3; 3]]) 
     scene.lights.extend(triangles.iter().map(light));
 }
 
-/// A parallelogram; its front is the side from which corner, corner + a, corner + a + b run counter-clockwise.
+/// A parallelogram; its front is the side from which corner, corner + a, corner + a + b are counter-clockwise.
 pub(crate) fn quad(corner: Vec3, a: Vec3, b: Vec3) -> Vec<[Vec3; 3]> {
     vec![[corner, corner + a, corner + a + b], [corner, corner + a + b, corner + b]]
 }
@@ -87,7 +87,7 @@ pub(crate) fn quad(corner: Vec3, a: Vec3, b: Vec3) -> Vec<[Vec3; 3]> {
 pub(crate) fn room(low: Vec3, high: Vec3) -> Vec<[Vec3; 3]> {
     let size = high - low;
     let (x, y, z) = (size.x * Vec3::X, size.y * Vec3::Y, size.z * Vec3::Z);
-    // A corner of each face is given by the sum of whole edges, so that faces share the bits of their corners.
+    // Corners are sums of whole edges, so that faces share the bits of their corners.
     [
         quad(low, x, y),
         quad(low, y, z),
@@ -102,12 +102,12 @@ pub(crate) fn room(low: Vec3, high: Vec3) -> Vec<[Vec3; 3]> {
     .collect()
 }
 
-/// The corner of the box that is nearest.
+/// The nearest corner of the box.
 fn snap(vertex: Vec3, low: Vec3, high: Vec3) -> Vec3 {
     Vec3::select((vertex - low).abs().cmplt((vertex - high).abs()), low, high)
 }
 
-/// A sphere: an icosahedron whose triangles are cut in four `levels` times, its corners on the sphere.
+/// A sphere: an icosahedron, subdivided `levels` times, with vertices on the sphere.
 pub(crate) fn icosphere(center: Vec3, radius: f32, levels: u32, front_outside: bool) -> Vec<[Vec3; 3]> {
     let g = 0.5 * (1.0 + 5f32.sqrt());
     let mut corners: Vec<Vec3> = [
@@ -171,7 +171,7 @@ pub(crate) fn icosphere(center: Vec3, radius: f32, levels: u32, front_outside: b
     faces.into_iter().map(place).collect()
 }
 
-/// A BSDF as the renderer makes it for a point in the plane z = 0 that is looked at from `wo`.
+/// The BSDF of a material at a point in the plane z = 0, viewed from `wo`.
 #[derive(Clone, Copy)]
 pub(crate) struct Surface {
     pub(crate) bsdf: Bsdf,
@@ -180,7 +180,7 @@ pub(crate) struct Surface {
     pub(crate) wo: Vec3,
 }
 
-/// A large triangle of a material in the plane z = 0, its front upwards, with the given shading normal.
+/// A large triangle of a material in the plane z = 0, facing up, with the given shading normal.
 pub(crate) fn plate(material: Material, shading_normal: Option<Vec3>) -> Scene {
     let mut scene = empty();
     let corners = [Vec3::new(-9.0, -7.0, 0.0), Vec3::new(9.0, -7.0, 0.0), Vec3::new(0.0, 9.0, 0.0)];
@@ -192,7 +192,7 @@ pub(crate) fn plate(material: Material, shading_normal: Option<Vec3>) -> Scene {
     Scene::new(&scene)
 }
 
-/// The BSDF of a [`plate`], looked at from `wo`.
+/// The BSDF of a [`plate`], viewed from `wo`.
 pub(crate) fn surface(plate: &Scene, wo: Vec3) -> Surface {
     let hit = plate.intersect(&Ray::new(wo, -wo)).expect("the plate is large");
     Surface { bsdf: hit.bsdf(), normal: hit.normal, geometric_normal: hit.geometric_normal, wo: hit.wo }

@@ -1,11 +1,11 @@
-//! Tests of hypotheses about random numbers, each with the false-alarm rate that it is given.
+//! Hypothesis tests with given false-alarm rates.
 
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal, StudentsT};
 
 /// Pearson's χ² test of counts against expected counts; returns the p-value.
 ///
-/// Neighbouring categories are pooled until ten samples are expected in each, below which the distribution of the
-/// statistic is no longer χ² in its far tail. Both lists are whole: everything that was drawn is in a category.
+/// Neighbouring categories are pooled until ten samples are expected in each; with fewer, the tail of the statistic is not
+/// χ². Every sample is in a category.
 pub(crate) fn chi_squared(observed: &[u64], expected: &[f64]) -> f64 {
     assert_eq!(observed.len(), expected.len());
     let mut pools: Vec<(f64, f64)> = Vec::new();
@@ -71,30 +71,30 @@ impl Estimate {
         self.standard_error * student.inverse_cdf(1.0 - alpha / 2.0)
     }
 
-    /// Demands that the true mean is `exact`, up to the relative rounding error `rounding`.
+    /// Asserts that the true mean is `exact`, up to the relative rounding error `rounding`.
     ///
-    /// A correct estimator fails with probability `alpha`. A wrong one passes for certain only if its bias is
-    /// invisible, so the test also demands that it would see a relative bias of `resolution` half of the time.
+    /// A correct estimator fails with probability `alpha`. To make sure that a wrong one fails, the test also asserts that it
+    /// would detect a relative bias of `resolution` with a probability of one half.
     pub(crate) fn assert_is(&self, exact: f64, rounding: f64, resolution: f64, alpha: f64, what: &str) {
         let allowed = self.margin(alpha) + rounding * exact;
         assert!((self.mean - exact).abs() <= allowed, "{what}: {} ± {allowed}, expected {exact}", self.mean);
         assert!(allowed <= resolution * exact, "{what}: sees only biases from {}", allowed / exact);
     }
 
-    /// True if `exact` lies outside the interval of [`assert_is`](Self::assert_is): for tests of the test.
+    /// True if `exact` is outside the interval of [`assert_is`](Self::assert_is), for tests of the test.
     pub(crate) fn rejects(&self, exact: f64, alpha: f64) -> bool {
         (self.mean - exact).abs() > self.margin(alpha)
     }
 }
 
-/// The p-value of the hypothesis that a share of `probability` was seen `count` times among `total`.
+/// The p-value of the hypothesis that an event of the given probability occurred `count` times in `total`.
 pub(crate) fn share(count: u64, total: u64, probability: f64) -> f64 {
     let (count, total) = (count as f64, total as f64);
     let deviation = (total * probability * (1.0 - probability)).sqrt();
     if deviation == 0.0 {
         return if count == total * probability { 1.0 } else { 0.0 };
     }
-    // Half a count for continuity.
+    // Continuity correction.
     let z = ((count - total * probability).abs() - 0.5).max(0.0) / deviation;
     2.0 * Normal::standard().sf(z)
 }

@@ -1,4 +1,4 @@
-//! What is built: without what cannot be hit, and whatever the mesh.
+//! Building the structure.
 
 use glam::Vec3;
 
@@ -8,7 +8,7 @@ use super::super::{Accel, clean, point_on};
 use super::{Random, ball, unit_normal};
 
 #[test]
-fn triangles_that_cannot_be_hit_and_duplicates_are_left_out() {
+fn degenerate_and_duplicate_triangles_are_ignored() {
     let v = Vec3::new;
     let [a, b, c] = [v(0.0, 0.0, 0.0), v(1.0, 0.0, 0.0), v(0.0, 1.0, 0.0)];
     let triangles = [
@@ -29,7 +29,7 @@ fn triangles_that_cannot_be_hit_and_duplicates_are_left_out() {
 }
 
 #[test]
-fn a_halved_tree_gives_the_same_hits() {
+fn a_median_split_tree_gives_the_same_hits() {
     let triangles = ball(20, 0.1, |point| point);
     let accel = Accel::build(&triangles);
     let cleaned = clean::clean(&triangles);
@@ -54,7 +54,7 @@ fn awkward_meshes_are_built_and_hit() {
         [Vec3::ZERO, Vec3::new(1.0, u, 1.0), Vec3::new(v, 1.0, 0.0)]
     };
     let coincident: Vec<_> = (0..20_000).map(|_| same_box(&mut random)).collect();
-    // Boxes one in another, and needles of all lengths from a common point.
+    // Nested boxes, and needles of all lengths from a common point.
     let nested: Vec<_> =
         (1..3000).map(|i| [-1.0, 0.0, 1.0].map(|x: f32| i as f32 * Vec3::new(x, x * x - 0.5, x))).collect();
     let needles: Vec<_> = (1..2000)

@@ -1,4 +1,4 @@
-//! Where rays begin and end: off the surface that they leave, on the light that they ask about.
+//! Origins and targets of rays: off the surface they start on, on the light they end at.
 
 use glam::Vec3;
 
@@ -6,13 +6,13 @@ use super::super::{Accel, exact, offset_origin, point_on};
 use super::{PLACES, Random, Triangle, ball, cube, place, unit_normal};
 
 #[test]
-fn a_light_does_not_block_itself_but_what_is_before_it_does() {
+fn a_light_does_not_occlude_itself_but_a_plate_in_front_of_it_does() {
     for at in PLACES {
         let (scale, offset) = at;
         let place = place(at);
         let mut random = Random(4);
         for _ in 0..40 {
-            // A light of two triangles, flat but for rounding, and a second sheet close behind it.
+            // A light of two triangles, coplanar up to rounding, and a second sheet close behind it.
             let corners: [Vec3; 4] = {
                 let (middle, u) = (random.point(), random.direction());
                 let v = u.cross(random.direction()).normalize();
@@ -24,7 +24,7 @@ fn a_light_does_not_block_itself_but_what_is_before_it_does() {
             let behind = light.map(|triangle| triangle.map(|corner| corner - 0.02 * scale * normal));
             let alone = Accel::build(&light);
             let backed = Accel::build(&[light[0], light[1], behind[0], behind[1]]);
-            // A plate before it, by a ten-thousandth of the size; rounding must leave that a distance.
+            // A plate in front of it, at a ten-thousandth of the size, which must be more than rounding.
             let gap = if offset == 0.0 { 1e-4 } else { 1e-2 };
             let before = light.map(|triangle| triangle.map(|corner| corner + gap * scale * normal));
             let blocked = Accel::build(&[light[0], light[1], before[0], before[1]]);
@@ -44,7 +44,7 @@ fn a_light_does_not_block_itself_but_what_is_before_it_does() {
                 }
                 assert!(!alone.occluded(origin, target, None), "{at:?}: its own light, from {away}");
                 assert!(!backed.occluded(origin, target, None), "{at:?}: a sheet behind, from {away}");
-                // Through the middle of the plate: from twice as high as it is, and not past its rim.
+                // Through the middle of the plate: from twice its height, not past its rim.
                 let inner = point_on(&light[0], [0.3 + 0.1 * random.next(), 0.3]);
                 let origin = inner + scale * (0.3 * random.point() + 2.0 * normal);
                 assert!(blocked.occluded(origin, inner, None), "{at:?}: a plate before");
@@ -55,7 +55,7 @@ fn a_light_does_not_block_itself_but_what_is_before_it_does() {
 }
 
 #[test]
-fn the_triangle_that_is_left_is_not_there() {
+fn the_excluded_triangle_is_not_hit() {
     let plate = |z: f32| [Vec3::new(-1.0, -1.0, z), Vec3::new(2.0, -1.0, z), Vec3::new(-1.0, 2.0, z)];
     // One block, and a tree.
     for count in [3, 100] {
@@ -70,7 +70,7 @@ fn the_triangle_that_is_left_is_not_there() {
 }
 
 #[test]
-fn rays_do_not_hit_what_they_start_from() {
+fn rays_do_not_hit_the_surface_they_start_on() {
     for at in PLACES {
         let place = place(at);
         for triangles in [ball(40, 0.0, &place), cube(8, &place)] {
@@ -95,7 +95,7 @@ fn rays_do_not_hit_what_they_start_from() {
                 let told = accel.intersect(ray.0, ray.1, f32::INFINITY, Some(hit.primitive));
                 assert_eq!(next, told, "{at:?}: to know what is left saves time and changes nothing");
             }
-            // Points within rounding of an edge may come to lie on the far side of the neighbour's plane.
+            // Points within rounding of an edge may be on the far side of the neighbour's plane.
             let allowed = if at.1 == 0.0 { 2 } else { 2_000 };
             assert!(escaped <= allowed, "{at:?}: {escaped} escaped");
         }
@@ -103,12 +103,12 @@ fn rays_do_not_hit_what_they_start_from() {
 }
 
 #[test]
-fn an_offset_point_is_on_its_side_of_the_plane_and_near() {
+fn an_offset_point_is_on_its_side_of_the_plane_and_close() {
     let mut random = Random(10);
     for scale in [1e-6, 1e-3, 1.0, 1e3, 1e6] {
         for offset in [0.0, 1.0, 1e3] {
             for _ in 0..20_000 {
-                // Planes at random, along the axes, and through the origin.
+                // Random planes, axis-aligned planes, and planes through the origin.
                 let kind = random.index(3);
                 let mut triangle = [(); 3].map(|()| random.point());
                 match kind {
@@ -123,7 +123,7 @@ fn an_offset_point_is_on_its_side_of_the_plane_and_near() {
                 let triangle = triangle.map(|corner| scale * corner);
                 let area = exact::normal(&triangle).length();
                 if area < 1e-3 * f64::from(scale * scale) {
-                    continue; // Its normal would say little.
+                    continue; // Its normal would be inaccurate.
                 }
                 let normal = unit_normal(&triangle);
                 // Often next to the middle of an edge: with kind 2, next to (0, 0, 0).

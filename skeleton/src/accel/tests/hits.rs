@@ -1,4 +1,4 @@
-//! What a ray hits: as brute force has it, the same by all kinds of code, at any size.
+//! Hits: equal to brute force, on all code paths, at any scale.
 
 use glam::{DVec3, Vec3};
 
@@ -6,7 +6,7 @@ use super::super::lanes::Portable;
 use super::super::{Accel, NO_PRIMITIVE, Pairs, TriangleHit, point_on};
 use super::{Random, Triangle, ball, cube};
 
-/// A pixel's or a shadow's worth of random triangles, some of them small, some long.
+/// Random triangles, some of them small, some long.
 fn soup(random: &mut Random, count: usize) -> Vec<Triangle> {
     (0..count)
         .map(|_| {
@@ -16,7 +16,7 @@ fn soup(random: &mut Random, count: usize) -> Vec<Triangle> {
         .collect()
 }
 
-/// Distance and smallest barycentric weight where a ray meets a triangle's plane.
+/// Distance and smallest barycentric weight of the intersection of a ray with a triangle's plane.
 fn meet(triangle: &Triangle, origin: Vec3, direction: Vec3) -> (f64, f64) {
     let [a, b, c] = triangle.map(Vec3::as_dvec3);
     let (origin, direction) = (origin.as_dvec3(), direction.as_dvec3());
@@ -28,7 +28,7 @@ fn meet(triangle: &Triangle, origin: Vec3, direction: Vec3) -> (f64, f64) {
 }
 
 #[test]
-fn hits_are_those_of_brute_force() {
+fn hits_agree_with_brute_force() {
     let mut random = Random(1);
     let mut hits = 0;
     for count in [1, 7, 8, 9, 16, 17, 40, 41, 60, 300] {
@@ -41,7 +41,7 @@ fn hits_are_those_of_brute_force() {
             let crossings: Vec<_> =
                 triangles.iter().map(|triangle| meet(triangle, origin, direction)).collect();
             if crossings.iter().any(|(_, weight)| weight.abs() < 1e-4) {
-                continue; // Through an edge: either answer is right.
+                continue; // Through an edge: either result is correct.
             }
             let nearest = crossings
                 .iter()
@@ -65,7 +65,7 @@ fn hits_are_those_of_brute_force() {
 }
 
 #[test]
-fn nothing_is_hit_where_nothing_is() {
+fn an_empty_structure_is_never_hit() {
     let accel = Accel::build(&[]);
     assert_eq!(accel.intersect(Vec3::ZERO, Vec3::X, f32::INFINITY, None), None);
     assert!(!accel.occluded(Vec3::ZERO, Vec3::X, None));
@@ -101,7 +101,7 @@ fn rays_that_are_not_finite_hit_nothing() {
 }
 
 #[test]
-fn both_kinds_of_code_give_the_same_bits() {
+fn both_code_paths_give_the_same_bits() {
     let mut random = Random(6);
     for triangles in [soup(&mut random, 500), soup(&mut random, 12), ball(20, 0.1, |p| p), cube(4, |p| p)] {
         let accel = Accel::build(&triangles);
@@ -137,7 +137,7 @@ fn both_kinds_of_code_give_the_same_bits() {
 }
 
 #[test]
-fn enormous_and_minute_scenes_are_hit() {
+fn huge_and_tiny_scenes_are_hit() {
     for scale in [1e-30, 1e-20, 1e20, 1e30] {
         let triangles = ball(6, 0.1, |point| scale * point);
         let accel = Accel::build(&triangles);

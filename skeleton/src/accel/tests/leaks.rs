@@ -1,4 +1,4 @@
-//! No ray gets out of a closed mesh, wherever it is aimed.
+//! No ray leaves a closed mesh, wherever it is aimed.
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -6,19 +6,19 @@ use rayon::prelude::*;
 use super::super::{Accel, exact};
 use super::{PLACES, Random, Triangle, ball, cube, place};
 
-/// With as many rays as `ARTY_RAYS` says, if it is set: `ARTY_RAYS=100000000 cargo test --release -p arty --lib edges` takes
+/// `ARTY_RAYS` sets the number of rays: `ARTY_RAYS=100000000 cargo test --release -p arty --lib edges` takes
 /// some 20 s on two cores.
 #[test]
-fn rays_at_edges_and_vertices_do_not_escape() {
+fn rays_at_edges_and_vertices_do_not_leak() {
     let rays = std::env::var("ARTY_RAYS").map_or(2_500_000, |rays| rays.parse().expect("a number of rays"));
     assert_eq!(escaped(rays), 0, "of {rays}");
 }
 
-/// How many rays of so many get out of a closed mesh, half of them out of one that is tested triangle by triangle, half
-/// out of one in a tree, with another around it; all of them both as rays and as shadow rays.
+/// The number of rays that leave a closed mesh. Half of the rays are tested without a tree, half with one and with another
+/// mesh around it; each both as a ray and as a shadow ray.
 fn escaped(rays: u64) -> usize {
     const CHUNK: u64 = 1 << 16;
-    /// This many times as far as the point aimed at is outside, from wherever within.
+    /// At this multiple of the distance to the point aimed at, a ray from anywhere inside is outside.
     const FAR: f32 = 8.0;
     let mut escaped = 0;
     for at in PLACES {
@@ -54,11 +54,11 @@ fn aim(closed: &[Triangle], place: impl Fn(Vec3) -> Vec3, random: &mut Random) -
 
 fn ray_escapes(accel: &Accel, closed: &[Triangle], origin: Vec3, direction: Vec3) -> bool {
     let hit = accel.intersect(origin, direction, f32::INFINITY, None);
-    // What stands around the mesh has the higher numbers.
+    // The surrounding mesh has the higher indices.
     hit.is_none_or(|hit| hit.primitive as usize >= closed.len())
 }
 
-/// True if nothing is between a point within and one without, unless that is within rounding of the plane of what is hit.
+/// True if nothing occludes a point outside from one inside, unless that is within rounding of the plane that is hit.
 fn shadow_ray_escapes(accel: &Accel, closed: &[Triangle], origin: Vec3, target: Vec3) -> bool {
     if accel.occluded(origin, target, None) {
         return false;
@@ -73,7 +73,7 @@ fn rays_along_the_axes_do_not_slip_through_flat_boxes() {
     let accel = Accel::build(&cube(8, |point| point));
     let mut random = Random(3);
     for _ in 0..100_000 {
-        // On the lines of the grid, often right in the plane of a face.
+        // On the lines of the grid, often exactly in the plane of a face.
         let origin = Vec3::from([(); 3].map(|()| random.index(9) as f32 / 4.0 - 1.0));
         let axis = random.index(3);
         let mut direction = Vec3::new(0.0, -0.0, 0.0);

@@ -1,4 +1,4 @@
-//! What the tests of this module share: random numbers, closed meshes, and where these are put.
+//! Tests of the acceleration structure; shared here: random numbers, closed meshes, placements.
 
 mod build;
 mod ends;
@@ -40,15 +40,15 @@ impl Random {
         }
     }
 
-    /// Weights of corners 1 and 2, uniform over a triangle.
+    /// Barycentric weights of vertices 1 and 2, uniform over a triangle.
     fn barycentrics(&mut self) -> [f32; 2] {
         let (v, w) = (self.next(), self.next());
         if v + w > 1.0 { [1.0 - v, 1.0 - w] } else { [v, w] }
     }
 }
 
-/// A ball with a rough surface, closed: each face of an octahedron divided into `n`² triangles. It contains the
-/// ball of half its radius, and is star-shaped as seen from its centre.
+/// A closed ball with a rough surface: each face of an octahedron is divided into `n`² triangles. It contains the ball of
+/// half its radius and is star-shaped around its centre.
 fn ball(n: usize, roughness: f32, place: impl Fn(Vec3) -> Vec3) -> Vec<Triangle> {
     let mut triangles = Vec::new();
     for octant in 0..8 {
@@ -59,7 +59,7 @@ fn ball(n: usize, roughness: f32, place: impl Fn(Vec3) -> Vec3) -> Vec<Triangle>
         );
         let at = |i: usize, j: usize| {
             let grid = Vec3::new(i as f32, j as f32, (n - i - j) as f32) * sign;
-            // A radius that depends on the vertex only, so that neighbours agree.
+            // The radius depends on the vertex only, so that the mesh is closed.
             let seed = (grid.x as i64 * 1_000_003 + grid.y as i64 * 1_009 + grid.z as i64) as u64;
             place(grid.normalize() * (1.0 - roughness * Random(seed).next()))
         };
@@ -98,7 +98,7 @@ fn cube(n: usize, place: impl Fn(Vec3) -> Vec3) -> Vec<Triangle> {
     triangles
 }
 
-/// Where scenes are put: scaled, and moved by a thousand times their size.
+/// Placements of scenes: scaled, and moved by a thousand times their size.
 const PLACES: [(f32, f32); 6] = [(1.0, 0.0), (1e-4, 0.0), (1e4, 0.0), (1.0, 1e3), (1e-4, 1e3), (1e4, 1e3)];
 
 fn place((scale, offset): (f32, f32)) -> impl Fn(Vec3) -> Vec3 {

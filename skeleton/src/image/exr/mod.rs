@@ -1,7 +1,7 @@
-//! Images to compute with: OpenEXR files of one part with named layers.
+//! OpenEXR files: linear data in one part with named layers.
 //!
-//! The layers share one part and are told apart by the names of their channels (see [`channel_names`]),
-//! which every viewer that knows layers understands, and one that does not shows the main image.
+//! Layers are distinguished by the names of their channels (see [`channel_names`]). Viewers without support for layers show
+//! the main image.
 
 use std::collections::BTreeMap;
 
@@ -13,45 +13,48 @@ mod read;
 mod tests;
 mod write;
 
-/// How exactly samples are stored.
+/// Sample format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Precision {
-    /// 32 bits: every value is read back as it was, NaN and infinity included.
+    /// 32 bits: lossless, including NaN and infinity.
     Full,
-    /// 16 bits, for images that are only looked at: about three digits, and finite values beyond ±65504
-    /// become that.
+    /// 16 bits, for viewing: about three digits; finite values are clamped to ±65504.
     Half,
 }
 
-/// What an OpenEXR file holds.
+/// The contents of an OpenEXR file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ExrFile {
-    /// Number of columns of every channel.
+    /// Width of all channels.
     pub width: usize,
-    /// Number of rows of every channel.
+    /// Height of all channels.
     pub height: usize,
-    /// `width * height` samples by the channel's name, row by row from the top, each row from the left.
+    /// For each channel `width * height` samples, row by row from the top, each row from the left.
     pub channels: BTreeMap<String, Vec<f32>>,
-    /// Texts by name: the standard's `software`, `comments`, `owner` and `capDate`, and any of our own.
+    /// Text attributes: the standard ones `software`, `comments`, `owner` and `capDate`, and custom ones.
     ///
-    /// Where `software` is missing, it is written as the name and version of this program.
+    /// If `software` is missing, the name and version of this program are written.
     pub metadata: BTreeMap<String, String>,
 }
 
 impl ExrFile {
-    /// A file that shows one image.
-    pub fn new(picture: &Image) -> Self {
-        let file = Self { width: picture.width(), height: picture.height(), ..Self::default() };
-        file.with_layer("", picture)
+    /// A file with one image.
+    pub fn new(image: &Image) -> Self {
+        let file = Self { width: image.width(), height: image.height(), ..Self::default() };
+        file.with_layer("", image)
     }
 
-    /// This file with one more layer, in place of an earlier one of that name.
+    /// Adds or replaces a layer.
     ///
     /// # Panics
     ///
     /// If the layer has another size than the image.
     pub fn with_layer(mut self, name: &str, layer: &Image) -> Self {
-        assert_eq!((layer.width(), layer.height()), (self.width, self.height), "all layers have one size");
+        assert_eq!(
+            (layer.width(), layer.height()),
+            (self.width, self.height),
+            "all layers have the same size"
+        );
         for (index, channel) in channel_names(name).into_iter().enumerate() {
             let samples = layer.pixels().iter().map(|pixel| pixel.to_array()[index]).collect();
             self.channels.insert(channel, samples);
@@ -59,15 +62,13 @@ impl ExrFile {
         self
     }
 
-    /// This file with one more entry of its metadata, in place of an earlier one of that name.
-    ///
-    /// Names of our own should start with `arty:`, so that they never clash with anyone else's.
+    /// Adds or replaces a text attribute. Custom names start with `arty:` by convention, to avoid conflicts.
     pub fn with_metadata(mut self, name: impl Into<String>, value: impl Into<String>) -> Self {
         self.metadata.insert(name.into(), value.into());
         self
     }
 
-    /// One layer, or None if the file has not all three of its channels; the empty name is the main image.
+    /// A layer; the empty name is the main image. `None` unless all three channels exist.
     pub fn layer(&self, name: &str) -> Option<Image> {
         let mut image = Image::new(self.width, self.height);
         let [red, green, blue] = channel_names(name).map(|channel| self.channels.get(&channel));

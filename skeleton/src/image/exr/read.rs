@@ -1,4 +1,4 @@
-//! Reading OpenEXR files, also broken and hostile ones.
+//! Reading of OpenEXR files, including broken and hostile ones.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -16,23 +16,23 @@ use ::exr::prelude::f16;
 use super::ExrFile;
 use crate::diagnostic::Diagnostic;
 
-/// The most samples that are read: 1 GiB of memory.
+/// Maximum number of samples: 1 GiB of memory.
 const MAX_SAMPLES: u128 = 1 << 28;
-/// The most bytes of a file that can hold as many samples: what zlib adds at worst is far less than 1/16.
+/// Maximum length of a file with as many samples: zlib adds far less than 1/16 in the worst case.
 const MAX_FILE_LENGTH: u64 = (4 << 28) + (4 << 24);
-/// No accepted compression can make pixels smaller than by this factor (zlib: 1032; run lengths: 64).
+/// Maximum compression factor of the supported methods (zlib: 1032; run lengths: 64).
 const MAX_COMPRESSION_RATIO: u128 = 1040;
 
 impl ExrFile {
-    /// Reads a file of one part in scan lines, uncompressed or compressed by run lengths or zlib, which is
-    /// what [`ExrFile::write`] and most programs write.
+    /// Reads a single-part scan-line file, uncompressed or compressed by run lengths or zlib, as [`ExrFile::write`] and most
+    /// programs write it.
     ///
-    /// Samples of other types are converted to 32-bit floats.
+    /// Samples are converted to 32-bit floats.
     ///
     /// # Errors
     ///
-    /// If the file cannot be read, is not such a file, or is damaged. Memory is taken only for as many
-    /// pixels as a file of its length can hold, and never for more than 2²⁸ samples.
+    /// If the file cannot be read, has an unsupported format, or is damaged. Memory is allocated only for as many pixels as
+    /// a file of its length can contain, and for at most 2²⁸ samples.
     pub fn read(path: &Path) -> Result<Self, Diagnostic> {
         let fail = |reason: String| Diagnostic::about(path, format!("cannot be read: {reason}"));
         let file = File::open(path).map_err(|error| fail(error.to_string()))?;
@@ -41,15 +41,18 @@ impl ExrFile {
     }
 }
 
-/// Reads a file of `length` bytes, or says what is wrong with it.
+/// Reads a file of `length` bytes.
+///
+/// # Errors
+/// What is wrong with the file.
 pub(super) fn decode(file: impl Read + Seek, length: u64) -> Result<ExrFile, String> {
-    // The metadata may be as long as the file, hence this comes before it.
+    // Checked before the metadata is read, which may be as long as the file.
     if length > MAX_FILE_LENGTH {
         return Err(format!("the file has {length} bytes; at most {MAX_FILE_LENGTH} are read"));
     }
     let reader = ::exr::block::read(file, true).map_err(explain)?;
     let [header] = reader.headers() else {
-        return Err("it has several parts; write it with all layers in one".to_owned());
+        return Err("it has several parts; save it with all layers in a single part".to_owned());
     };
     check(header, length)?;
 
@@ -60,10 +63,10 @@ pub(super) fn decode(file: impl Read + Seek, length: u64) -> Result<ExrFile, Str
     let chunks = reader.all_chunks(true).map_err(explain)?;
     for block in chunks.sequential_decompressor(true) {
         let block = block.map_err(explain)?;
-        // There are as many blocks as the image needs, hence none is missing if none comes twice.
+        // The number of blocks is that of the image, so none is missing if there is no duplicate.
         let top = block.index.pixel_position.y();
         if std::mem::replace(&mut is_row_read[top], true) {
-            return Err(format!("it holds row {top} twice"));
+            return Err(format!("it contains row {top} twice"));
         }
         copy_samples(&block, &header, &mut channels).map_err(explain)?;
     }
@@ -73,36 +76,38 @@ pub(super) fn decode(file: impl Read + Seek, length: u64) -> Result<ExrFile, Str
     Ok(ExrFile { width, height, channels, metadata: metadata(&header.own_attributes) })
 }
 
-/// Refuses what is not read, and what would take memory out of proportion to the file.
+/// Refuses unsupported formats, and images too large for the length of the file.
 fn check(header: &Header, length: u64) -> Result<(), String> {
     if header.deep || header.blocks != BlockDescription::ScanLines {
-        return Err("it is tiled or deep; write it in scan lines".to_owned());
+        return Err("it is tiled or deep; save it as scan lines".to_owned());
     }
     let compression = header.compression;
     if !matches!(
         compression,
         Compression::Uncompressed | Compression::RLE | Compression::ZIP1 | Compression::ZIP16
     ) {
-        return Err(format!("its compression ({compression}) is not read; write it with zip compression"));
+        return Err(format!(
+            "its compression ({compression}) is not supported; save it with zip compression"
+        ));
     }
     let (width, height) = (header.layer_size.width(), header.layer_size.height());
     let count = header.channels.list.len();
     let samples = width as u128 * height as u128 * count as u128;
     if samples > MAX_SAMPLES {
         return Err(format!(
-            "{width} x {height} pixels in {count} channels are more than {MAX_SAMPLES} samples"
+            "{width} x {height} pixels in {count} channels exceed the limit of {MAX_SAMPLES} samples"
         ));
     }
     let pixel_bytes = width as u128 * height as u128 * header.channels.bytes_per_pixel as u128;
     if pixel_bytes > MAX_COMPRESSION_RATIO * u128::from(length) {
         return Err(format!(
-            "it claims {width} x {height} pixels in {count} channels, which {length} bytes cannot hold"
+            "its header claims {width} x {height} pixels in {count} channels, too many for {length} bytes"
         ));
     }
     Ok(())
 }
 
-/// Copies the samples of a block to where they belong in the channels of the image.
+/// Copies the samples of a block to the channels of the image.
 fn copy_samples(block: &UncompressedBlock, header: &Header, channels: &mut [Vec<f32>]) -> Result<(), Error> {
     let width = header.layer_size.width();
     for line in block.lines(&header.channels) {
@@ -126,7 +131,7 @@ fn copy_samples(block: &UncompressedBlock, header: &Header, channels: &mut [Vec<
     Ok(())
 }
 
-/// All metadata that is text and not about how the pixels are stored.
+/// All text attributes.
 fn metadata(attributes: &LayerAttributes) -> BTreeMap<String, String> {
     let standard = [
         ("software", &attributes.software_name),
@@ -142,7 +147,7 @@ fn metadata(attributes: &LayerAttributes) -> BTreeMap<String, String> {
     standard.chain(other).map(|(name, value)| (name, lossy(value.as_slice()))).collect()
 }
 
-/// The format's text, which is not always UTF-8.
+/// A text of the format, which need not be UTF-8.
 fn lossy(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
@@ -150,7 +155,7 @@ fn lossy(bytes: &[u8]) -> String {
 fn explain(error: Error) -> String {
     match error {
         Error::Invalid(reason) => format!("it is damaged or not an OpenEXR file ({reason})"),
-        Error::NotSupported(reason) => format!("it uses what is not read ({reason})"),
+        Error::NotSupported(reason) => format!("it uses an unsupported feature ({reason})"),
         error => error.to_string(),
     }
 }

@@ -11,7 +11,7 @@ use super::{ExrFile, Precision};
 use crate::image::Image;
 use crate::math::Rgb;
 
-/// Writes and reads with our own code.
+/// Writes and reads a file.
 fn round_trip(file: &ExrFile, precision: Precision) -> ExrFile {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("picture.exr");
@@ -32,19 +32,19 @@ fn decoded(bytes: &[u8]) -> Result<ExrFile, String> {
     decode(Cursor::new(bytes), bytes.len() as u64)
 }
 
-/// An image of more than one block of rows, with a pattern that every pixel and channel can be told from.
+/// An image of more than one block of rows, in which all values are different.
 fn pattern(width: usize, height: usize, offset: f32) -> Image {
     let value = |i: usize| (i as f32 * 0.37 + offset).sin() * 10.0;
     let pixels = (0..width * height).map(|i| Rgb::new(value(3 * i), value(3 * i + 1), value(3 * i + 2)));
     Image::from_pixels(width, height, pixels.collect())
 }
 
-/// The channels bit by bit, so that NaNs can be compared too.
+/// The bits of the channels, so that NaNs can be compared.
 fn bits(file: &ExrFile) -> Vec<(&String, Vec<u32>)> {
     file.channels.iter().map(|(name, all)| (name, all.iter().map(|x| x.to_bits()).collect())).collect()
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014): enough to break files at random.
+/// SplitMix64 (Steele, Lea, Flood 2014).
 struct Dice(u64);
 
 impl Dice {
@@ -77,7 +77,7 @@ fn layers_and_metadata_survive_a_round_trip() {
 }
 
 #[test]
-fn the_program_signs_what_it_writes() {
+fn files_name_the_program() {
     let read = round_trip(&ExrFile::new(&Image::new(2, 2)), Precision::Full);
     let software = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
     assert_eq!(read.metadata.get("software").map(String::as_str), Some(software));
@@ -105,7 +105,7 @@ fn full_precision_keeps_every_bit_of_every_kind_of_float() {
 }
 
 #[test]
-fn noise_that_cannot_be_compressed_survives_a_round_trip() {
+fn incompressible_noise_survives_a_round_trip() {
     let mut dice = Dice(1);
     let mut file = ExrFile { width: 33, height: 50, ..ExrFile::default() };
     for name in ["A", "noise.X"] {
@@ -132,7 +132,7 @@ fn half_precision_rounds_and_keeps_finite_values_finite() {
 }
 
 #[test]
-fn other_readers_find_the_image_and_its_layers_in_one_part() {
+fn other_readers_find_the_image_and_its_layers() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("picture.exr");
     let (picture, variance) = (pattern(5, 20, 0.0), pattern(5, 20, 1.0));
@@ -159,7 +159,7 @@ fn other_readers_find_the_image_and_its_layers_in_one_part() {
     let red: Vec<f32> = layer.channel_data.list[5].sample_data.values_as_f32().collect();
     assert_eq!(red, variance.pixels().iter().map(|pixel| pixel.r).collect::<Vec<f32>>());
 
-    // A viewer that knows nothing of layers asks for R, G and B.
+    // A viewer without support for layers reads R, G and B.
     let shown = read()
         .no_deep_data()
         .largest_resolution_level()
@@ -176,7 +176,7 @@ fn other_readers_find_the_image_and_its_layers_in_one_part() {
     assert_eq!(shown.layer_data.channel_data.pixels, picture);
 }
 
-/// A file of 3 x 18 pixels as another program might write it.
+/// A file of 3 x 18 pixels in variants that other programs write.
 fn foreign_file(compression: Compression, blocks: Blocks, order: LineOrder) -> Vec<u8> {
     let channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = [
         AnyChannel::new("half", FlatSamples::F16((0..54).map(|i| f16::from_f32(i as f32)).collect())),
@@ -187,7 +187,7 @@ fn foreign_file(compression: Compression, blocks: Blocks, order: LineOrder) -> V
     .collect();
     let layer = ::exr::prelude::Layer::new(
         Vec2(3, 18),
-        // The data window of a cropped image does not start at zero.
+        // The data window of a cropped image does not start at 0.
         LayerAttributes::default().with_position(Vec2(-5, 11)),
         Encoding { compression, blocks, line_order: order },
         AnyChannels::sort(channels),
@@ -198,7 +198,7 @@ fn foreign_file(compression: Compression, blocks: Blocks, order: LineOrder) -> V
 }
 
 #[test]
-fn scan_lines_of_other_programs_are_read_whatever_their_sample_type_order_and_lossless_compression() {
+fn scan_lines_of_other_programs_are_read() {
     for compression in [Compression::Uncompressed, Compression::RLE, Compression::ZIP1, Compression::ZIP16] {
         for order in [LineOrder::Increasing, LineOrder::Decreasing] {
             let read = decoded(&foreign_file(compression, Blocks::ScanLines, order)).expect("this is read");
@@ -212,21 +212,21 @@ fn scan_lines_of_other_programs_are_read_whatever_their_sample_type_order_and_lo
 }
 
 #[test]
-fn what_is_not_read_is_said_to_be_so() {
+fn unsupported_formats_are_errors() {
     let tiled = foreign_file(Compression::ZIP16, Blocks::Tiles(Vec2(2, 2)), LineOrder::Increasing);
-    assert_eq!(decoded(&tiled), Err("it is tiled or deep; write it in scan lines".to_owned()));
+    assert_eq!(decoded(&tiled), Err("it is tiled or deep; save it as scan lines".to_owned()));
     let piz = foreign_file(Compression::PIZ, Blocks::ScanLines, LineOrder::Increasing);
-    let error = decoded(&piz).expect_err("this compression is not read");
-    assert!(error.contains("(piz compression) is not read"), "{error}");
-    for no_picture in [b"".as_slice(), b"v/1", b"\x89PNG\r\n\x1a\n and so on"] {
-        let error = decoded(no_picture).expect_err("this is no picture");
+    let error = decoded(&piz).expect_err("this compression is not supported");
+    assert!(error.contains("(piz compression) is not supported"), "{error}");
+    for no_image in [b"".as_slice(), b"v/1", b"\x89PNG\r\n\x1a\n and so on"] {
+        let error = decoded(no_image).expect_err("this is not an image");
         assert!(error.contains("not an OpenEXR file"), "{error}");
     }
     let error = ExrFile::read(Path::new("no/such/file.exr")).expect_err("there is no such file");
     assert!(error.to_string().starts_with("no/such/file.exr: cannot be read: "), "{error}");
 }
 
-/// A small file that has everything: several blocks, layers, metadata.
+/// A small file with several blocks, layers and metadata.
 fn small_file() -> ExrFile {
     ExrFile::new(&pattern(9, 40, 0.0))
         .with_layer("variance", &Image::new(9, 40))
@@ -234,7 +234,7 @@ fn small_file() -> ExrFile {
 }
 
 #[test]
-fn a_file_cut_off_anywhere_is_an_error() {
+fn a_truncated_file_is_an_error() {
     let bytes = bytes_of(&small_file(), Precision::Full);
     for length in 0..bytes.len() {
         assert!(decoded(&bytes[..length]).is_err(), "cut off after {length} of {} bytes", bytes.len());
@@ -260,7 +260,7 @@ fn broken_files_never_cause_a_panic() {
         for _ in 0..ROUNDS {
             let mut bytes = original.clone();
             for _ in 0..=dice.roll(4) {
-                // Half of the damage goes to the first bytes, where sizes and offsets stand.
+                // Half of the damage is in the first bytes, which contain sizes and offsets.
                 let end = if dice.roll(2) == 0 { bytes.len().min(700) } else { bytes.len() };
                 let place = dice.roll(end - 4);
                 match dice.roll(3) {
@@ -272,11 +272,11 @@ fn broken_files_never_cause_a_panic() {
             refused += usize::from(decoded(&bytes).is_err());
         }
     }
-    // Damage to mere sample values cannot be noticed. With far fewer refused, this would not break much.
+    // Damage to sample values cannot be detected, but most of the damage should be.
     assert!(refused > originals.len() * ROUNDS / 2, "only {refused} were refused");
 }
 
-/// Replaces the value of an attribute, which has the same length as before.
+/// Replaces the value of an attribute by one of the same length.
 fn with_attribute(bytes: &[u8], name: &str, kind: &str, value: &[u8]) -> Vec<u8> {
     let start =
         [name.as_bytes(), b"\0", kind.as_bytes(), b"\0", &(value.len() as i32).to_le_bytes()].concat();
@@ -288,34 +288,34 @@ fn with_attribute(bytes: &[u8], name: &str, kind: &str, value: &[u8]) -> Vec<u8>
 }
 
 #[test]
-fn a_header_that_claims_a_huge_image_is_refused_before_any_memory_is_taken() {
+fn a_header_that_claims_a_huge_image_is_refused_before_memory_is_allocated() {
     let bytes = bytes_of(&small_file(), Precision::Full);
     let claimed = |width: i32, height: i32| {
         let window: Vec<u8> = [0, 0, width - 1, height - 1].iter().flat_map(|x| x.to_le_bytes()).collect();
         let bytes = with_attribute(&bytes, "dataWindow", "box2i", &window);
-        decoded(&bytes).expect_err("this is not the size of the picture")
+        decoded(&bytes).expect_err("this is not the size of the image")
     };
-    assert!(claimed(1 << 29, 1 << 29).contains("are more than 268435456 samples"));
-    assert!(claimed(1 << 29, 1).contains("are more than 268435456 samples"));
-    // A gigabyte would be allowed, but not for a file of a few thousand bytes.
-    assert!(claimed(6000, 6000).contains("bytes cannot hold"));
+    assert!(claimed(1 << 29, 1 << 29).contains("exceed the limit of 268435456 samples"));
+    assert!(claimed(1 << 29, 1).contains("exceed the limit of 268435456 samples"));
+    // A gigabyte is within the limit, but not for a file of a few thousand bytes.
+    assert!(claimed(6000, 6000).contains("too many for"));
     let error = decode(Cursor::new(&bytes), 1 << 40).expect_err("this is far too long");
     assert!(error.contains("at most"), "{error}");
 }
 
 #[test]
-fn a_file_that_holds_some_rows_twice_and_others_not_at_all_is_refused() {
+fn a_file_with_duplicate_rows_is_refused() {
     let bytes = foreign_file(Compression::Uncompressed, Blocks::ScanLines, LineOrder::Increasing);
     // Each of the 18 rows is a block at the end of the file: its number, its length, and 3 pixels of 10 bytes.
     let last = bytes.len() - (4 + 4 + 30);
     let mut twice = bytes.clone();
     twice[last..last + 4].copy_from_slice(&11_i32.to_le_bytes());
     assert!(decoded(&bytes).is_ok());
-    assert_eq!(decoded(&twice), Err("it holds row 0 twice".to_owned()));
+    assert_eq!(decoded(&twice), Err("it contains row 0 twice".to_owned()));
 }
 
 #[test]
-fn what_the_format_cannot_hold_is_an_error_and_the_earlier_file_stays() {
+fn what_the_format_cannot_represent_is_an_error_and_keeps_the_earlier_file() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("picture.exr");
     std::fs::write(&path, "earlier").expect("writing works");
@@ -326,17 +326,17 @@ fn what_the_format_cannot_hold_is_an_error_and_the_earlier_file_stays() {
         file
     };
     let cases = [
-        (ExrFile::new(&Image::new(0, 3)), "0 x 3 pixels are too few or too many"),
+        (ExrFile::new(&Image::new(0, 3)), "0 x 3 pixels are not supported"),
         (ExrFile { width: 1, height: 1, ..ExrFile::default() }, "there are no channels"),
         (with_channel("Z", 5), "channel Z has 5 samples for 2 x 3 pixels"),
-        (with_channel("", 6), "\"\" is not a name"),
-        (with_channel("a\0b", 6), "\"a\\0b\" is not a name"),
-        (with_channel(&"x".repeat(256), 6), "is not a name"),
-        (good().with_metadata("channels", "none"), "the format has another use for the name channels"),
-        (good().with_metadata("", "none"), "\"\" is not a name"),
+        (with_channel("", 6), "invalid name \"\""),
+        (with_channel("a\0b", 6), "invalid name \"a\\0b\""),
+        (with_channel(&"x".repeat(256), 6), "invalid name"),
+        (good().with_metadata("channels", "none"), "the attribute name channels is reserved"),
+        (good().with_metadata("", "none"), "invalid name \"\""),
     ];
     for (file, reason) in cases {
-        let error = file.write(&path, Precision::Full).expect_err("the format cannot hold this");
+        let error = file.write(&path, Precision::Full).expect_err("the format cannot represent this");
         assert_eq!(error.file, path);
         assert!(error.message.contains(reason), "{error}");
         assert_eq!(std::fs::read(&path).expect("the file is there"), b"earlier");
@@ -349,5 +349,5 @@ fn what_the_format_cannot_hold_is_an_error_and_the_earlier_file_stays() {
 fn a_missing_folder_is_named() {
     let error = ExrFile::new(&Image::new(1, 1)).write(Path::new("no/such/folder/x.exr"), Precision::Full);
     let error = error.expect_err("there is no such folder");
-    assert!(error.message.contains("there is no folder no/such/folder"), "{error}");
+    assert!(error.message.contains("no such folder: no/such/folder"), "{error}");
 }

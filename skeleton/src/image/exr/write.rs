@@ -1,4 +1,4 @@
-//! Writing OpenEXR files.
+//! Writing of OpenEXR files.
 
 use std::io::{Seek, Write};
 use std::path::Path;
@@ -15,16 +15,16 @@ use super::{ExrFile, Precision};
 use crate::diagnostic::Diagnostic;
 use crate::image::write_aside;
 
-/// Names of channels and metadata may have this many bytes.
+/// Maximum length of channel and attribute names in bytes.
 const MAX_NAME_LENGTH: usize = 255;
 
 impl ExrFile {
-    /// Writes the file, compressed without loss.
+    /// Writes the file with lossless compression.
     ///
     /// # Errors
     ///
-    /// If the format cannot hold this (no pixels or no channels, a channel of another size, a name that is
-    /// empty, too long or reserved), or as [`write_aside`]; an earlier file is kept then.
+    /// If the format cannot represent it (no pixels, no channels, a channel of a different size, a name that is empty, too
+    /// long or reserved), or as [`write_aside`]; an existing file is kept then.
     pub fn write(&self, path: &Path, precision: Precision) -> Result<(), Diagnostic> {
         let header = self.header(precision).map_err(|reason| {
             Diagnostic::about(path, format!("cannot be written as an OpenEXR file: {reason}"))
@@ -32,12 +32,12 @@ impl ExrFile {
         write_aside(path, |file| self.encode(header, file))
     }
 
-    /// What stands before the pixels, or what is wrong with it.
+    /// The header.
     fn header(&self, precision: Precision) -> Result<Header, String> {
         let (width, height) = (self.width, self.height);
-        // The format ends at i32::MAX / 2; an image near that would not fit into memory.
+        // The limit of the format is i32::MAX / 2; an image near that does not fit into memory.
         if !(1..1 << 30).contains(&width) || !(1..1 << 30).contains(&height) {
-            return Err(format!("{width} x {height} pixels are too few or too many"));
+            return Err(format!("{width} x {height} pixels are not supported"));
         }
         if self.channels.is_empty() {
             return Err("there are no channels".to_owned());
@@ -53,7 +53,7 @@ impl ExrFile {
             Precision::Full => SampleType::F32,
             Precision::Half => SampleType::F16,
         };
-        // The format wants the channels in the order of their names, which is the order of the map.
+        // The format requires channels to be sorted by name, as the map is.
         let channels: SmallVec<[ChannelDescription; 5]> =
             self.channels.keys().map(|name| ChannelDescription::named(text(name), sample_type)).collect();
         Ok(Header::new(Text::default(), (width, height), channels)
@@ -61,7 +61,7 @@ impl ExrFile {
             .with_attributes(self.attributes()?))
     }
 
-    /// The metadata as the format has it.
+    /// The attributes of the layer.
     fn attributes(&self) -> Result<LayerAttributes, String> {
         let mut attributes = LayerAttributes {
             software_name: Some(text(concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION")))),
@@ -76,7 +76,7 @@ impl ExrFile {
                 "owner" => attributes.owner = Some(value),
                 "capDate" => attributes.capture_date = Some(value),
                 reserved if standard_names::ALL.contains(&reserved.as_bytes()) => {
-                    return Err(format!("the format has another use for the name {reserved}"));
+                    return Err(format!("the attribute name {reserved} is reserved by the format"));
                 }
                 _ => drop(attributes.other.insert(text(name), AttributeValue::Text(value))),
             }
@@ -100,26 +100,28 @@ impl ExrFile {
                     written.expect("a line of a block has room for its samples");
                 })
             });
-            // Nobody listens to the progress: the crate offers no other way to compress through a reference.
+            // The progress callback is unused; the crate offers no other way to compress through a reference.
             writer.on_progress(|_| ()).compress_all_blocks_parallel(&meta, blocks)
         })
     }
 }
 
-/// Rounds to 16 bits; finite values stay finite, since an infinity would look like a fault of the renderer.
+/// Rounds to 16 bits. Finite values stay finite, since an infinity would look like an error of the renderer.
 fn to_half(value: f32) -> f16 {
     let limit = f16::MAX.to_f32();
     f16::from_f32(if value.is_finite() { value.clamp(-limit, limit) } else { value })
 }
 
-/// The format's text: bytes, which are UTF-8 here.
+/// A text of the format, as UTF-8.
 fn text(text: &str) -> Text {
     Text::from_slice_unchecked(text.as_bytes())
 }
 
 fn check_name(name: &str) -> Result<(), String> {
     if name.is_empty() || name.len() > MAX_NAME_LENGTH || name.contains('\0') {
-        return Err(format!("{name:?} is not a name of 1 to {MAX_NAME_LENGTH} bytes without a zero byte"));
+        return Err(format!(
+            "invalid name {name:?}: must have 1 to {MAX_NAME_LENGTH} bytes and no zero byte"
+        ));
     }
     Ok(())
 }

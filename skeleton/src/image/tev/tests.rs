@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use super::*;
 use crate::math::Rgb;
 
-/// What the viewer understood.
+/// A packet as decoded by the viewer.
 #[derive(Debug, PartialEq)]
 enum Packet {
     Create {
@@ -27,7 +27,7 @@ enum Packet {
     },
 }
 
-/// The bytes of one packet, read as tev's `Ipc.cpp` reads them: little-endian, names up to a zero byte.
+/// The bytes of a packet, decoded as in tev's `Ipc.cpp`: little-endian, names terminated by a zero byte.
 struct Bytes<'a>(&'a [u8]);
 
 impl Bytes<'_> {
@@ -87,7 +87,7 @@ fn read_packet(stream: &mut TcpStream) -> io::Result<Packet> {
     Ok(Bytes(&bytes).packet())
 }
 
-/// A viewer on a free port that understands everything until the renderer hangs up.
+/// A viewer on a free port that decodes packets until the renderer disconnects.
 fn viewer() -> (String, JoinHandle<Vec<Packet>>) {
     let listener = TcpListener::bind("127.0.0.1:0").expect("a free port");
     let address = listener.local_addr().expect("an address").to_string();
@@ -104,7 +104,7 @@ fn counting(width: usize, height: usize) -> Image {
 }
 
 #[test]
-fn the_viewer_gets_the_image_and_its_layers() {
+fn the_viewer_receives_the_image_and_its_layers() {
     let (address, packets) = viewer();
     let mut view = LiveView::open(&address, "a pic\0ture", 2, 1, &["", "variance"]).expect("it listens");
     view.show("", &counting(2, 1)).expect("it listens");
@@ -161,7 +161,7 @@ fn a_large_image_arrives_in_bands_that_cover_it() {
 }
 
 #[test]
-fn an_image_without_pixels_is_nothing_to_send() {
+fn an_image_without_pixels_sends_nothing() {
     let (address, packets) = viewer();
     let mut view = LiveView::open(&address, "empty", 0, 0, &[""]).expect("it listens");
     view.show("", &Image::new(0, 3)).expect("there is nothing to send");
@@ -171,48 +171,48 @@ fn an_image_without_pixels_is_nothing_to_send() {
 }
 
 #[test]
-fn no_viewer_is_a_quick_error_that_names_the_address() {
+fn without_a_viewer_opening_fails_quickly_and_names_the_address() {
     let listener = TcpListener::bind("127.0.0.1:0").expect("a free port");
     let address = listener.local_addr().expect("an address").to_string();
     drop(listener);
     let start = Instant::now();
-    let error = LiveView::open(&address, "x", 1, 1, &[""]).expect_err("nobody listens");
+    let error = LiveView::open(&address, "x", 1, 1, &[""]).expect_err("nothing listens");
     assert!(start.elapsed() < Duration::from_secs(10));
-    assert!(error.to_string().starts_with(&format!("the tev viewer at {address} cannot be reached (")));
+    assert!(error.to_string().starts_with(&format!("cannot reach the tev viewer at {address} (")));
     for nonsense in ["127.0.0.1:", "127.0.0.1:99999", ":::", ""] {
         assert!(LiveView::open(nonsense, "x", 1, 1, &[""]).is_err(), "{nonsense}");
     }
 }
 
 #[test]
-fn a_viewer_that_goes_away_is_reported_once() {
+fn a_lost_viewer_is_reported_once() {
     let (sender, hang_up) = std::sync::mpsc::channel();
     let listener = TcpListener::bind("127.0.0.1:0").expect("a free port");
     let address = listener.local_addr().expect("an address").to_string();
     let viewer = thread::spawn(move || {
         let (mut stream, _) = listener.accept().expect("a renderer");
         read_packet(&mut stream).expect("the first packet");
-        hang_up.recv().expect("the test goes on");
+        hang_up.recv().expect("the test continues");
     });
     let mut view = LiveView::open(&address, "x", 64, 64, &[""]).expect("it listens");
     sender.send(()).expect("the viewer waits for this");
     viewer.join().expect("the viewer is gone");
 
-    // The system may take some data before it learns that nobody is there.
+    // The system may accept some data before it detects that the viewer is gone.
     let image = Image::new(64, 64);
     let first_error = (0..1000).find_map(|_| {
         thread::sleep(Duration::from_millis(1));
         view.show("", &image).err()
     });
-    assert!(first_error.is_some_and(|error| error.to_string().contains("rendering goes on")));
+    assert!(first_error.is_some_and(|error| error.to_string().contains("continuing without it")));
     for _ in 0..3 {
         view.show("", &image).expect("no second complaint");
     }
 }
 
 #[test]
-fn a_viewer_that_stops_reading_holds_the_renderer_up_only_for_a_moment() {
-    // Nobody accepts the connection, but the system takes it and as much data as its buffers hold.
+fn a_viewer_that_stops_reading_delays_the_renderer_only_briefly() {
+    // Nothing accepts the connection, but the system accepts data until its buffers are full.
     let listener = TcpListener::bind("127.0.0.1:0").expect("a free port");
     let address = listener.local_addr().expect("an address").to_string();
     let mut view = LiveView::open(&address, "x", 4096, 4096, &[""]).expect("the system answers");
