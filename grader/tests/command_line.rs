@@ -3,6 +3,8 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
+use verdict::report::{Report, TaskState};
+
 fn grader(folder: &Path, arguments: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));
     command.args(arguments).current_dir(folder).output().expect("the program starts")
@@ -29,14 +31,14 @@ fn a_grade_ends_with_0_whatever_the_points_unless_fewer_than_asked_for() {
     let report =
         std::fs::read_to_string(folder.path().join("here/report.json")).expect("the report is there");
     let report: serde_json::Value = serde_json::from_str(&report).expect("the report is JSON");
-    assert_eq!(report["schema"], "arty-report/1");
+    assert_eq!(report["schema"], "arty-report/2");
     for key in [
         "submission",
         "assignment",
         "points",
         "tasks",
         "checks",
-        "left_out",
+        "skipped",
         "diagnosis",
         "numerics",
         "cost",
@@ -193,11 +195,11 @@ fn a_person_marks_what_is_not_graded_automatically_and_nothing_else() {
         if again {
             grader(folder.path(), &["grade", ".", "--only=light-pick", "--out=here"]);
         }
-        let report =
-            verdict::report::Report::load(&folder.path().join("here/report.json")).expect("it is there");
+        let report = Report::load(&folder.path().join("here/report.json")).expect("it is there");
         let task = report.tasks.iter().find(|task| task.id == "5.2a").expect("it is a task");
-        assert_eq!((task.points, task.reason.as_str()), (Some(8.0), "well seen"), "again: {again}");
-        assert_eq!(report.points.marked, Some(8.0));
+        assert_eq!(task.points, Some(8.0), "again: {again}");
+        assert_eq!(task.state, TaskState::ByHand { comment: Some("well seen".to_owned()) }, "again: {again}");
+        assert_eq!(report.points.manual, Some(8.0));
         assert_eq!(report.submission.explanations.len(), 1);
     }
 }

@@ -12,8 +12,10 @@ use harness::sandbox::{Level, Limits, Machine};
 use harness::workspace::Workspace;
 use host::protocol::{RenderJob, Switches};
 use judge::grade::{Options, grade};
+use present::words;
 use serde::Deserialize;
-use verdict::report::{Reason, Report, Verdict};
+use verdict::check::{CheckResult, Reason, Verdict};
+use verdict::report::Report;
 use verdict::submission::Submission;
 
 /// The index of the corpus.
@@ -100,7 +102,7 @@ impl Honest {
     /// What it renders, to the bit.
     fn renders(&self) -> Vec<Vec<[f32; 3]>> {
         let mut process = HostProcess::start(&self.program, 2).expect("the program starts");
-        let scene = process.load(&self.scene).expect("the pipe holds").expect("the scene loads");
+        let scene = process.load(&self.scene).expect("the scene loads");
         let job = RenderJob {
             scene,
             settings: Settings { technique: Technique::Nee, max_bounces: 1 },
@@ -111,7 +113,7 @@ impl Honest {
             samples: 16,
             switches: Switches::default(),
         };
-        process.render(&job).expect("the pipe holds").expect("it renders").batches
+        process.render(&job).expect("it renders").batches
     }
 }
 
@@ -125,23 +127,13 @@ fn complaint(attack: &Attack, report: &Report) -> Option<String> {
         return Some("it earned points".to_owned());
     }
     let words = match (&report.submission.build_failure, report.checks.first()) {
-        (Some(failure), None) if attack.outcome == Outcome::Build => &failure.messages,
+        (Some(failure), None) if attack.outcome == Outcome::Build => failure.messages.clone(),
         (None, Some(check)) => {
-            let as_expected = check.verdict == Verdict::Fail
-                && match attack.outcome {
-                    Outcome::Build => false,
-                    Outcome::Black => check.reason == Reason::Bias && check.explanation.contains("black"),
-                    Outcome::Wrong => check.reason == Reason::Bias,
-                    Outcome::Crash => check.reason == Reason::Crash,
-                    Outcome::Timeout => check.reason == Reason::Timeout,
-                    Outcome::Numerics => check.reason == Reason::Numerics,
-                    Outcome::Violation => check.reason == Reason::Violation,
-                    Outcome::Any => true,
-                };
-            if !as_expected {
-                return Some(format!("{:?}, {:?}: {}", check.verdict, check.reason, check.explanation));
+            let explanation = words::explanation(check);
+            if !ended_as(check, attack.outcome) {
+                return Some(format!("{:?}, {:?}: {explanation}", check.verdict, check.reason));
             }
-            &check.explanation
+            explanation
         }
         (Some(failure), _) => return Some(failure.messages.clone()),
         (None, None) => return Some("it compiled, and was not run".to_owned()),
@@ -152,6 +144,21 @@ fn complaint(attack: &Attack, report: &Report) -> Option<String> {
         return Some(format!("its words are not harmless: {words:?}"));
     }
     (!words.contains(&attack.says)).then(|| format!("its report does not say `{}`: {words}", attack.says))
+}
+
+/// True if a check ended as the index says.
+fn ended_as(check: &CheckResult, outcome: Outcome) -> bool {
+    let reason = match outcome {
+        Outcome::Build => return false,
+        Outcome::Any => return check.verdict == Verdict::Fail,
+        Outcome::Black | Outcome::Wrong => Reason::Bias,
+        Outcome::Crash => Reason::Crash,
+        Outcome::Timeout => Reason::Timeout,
+        Outcome::Numerics => Reason::Numerics,
+        Outcome::Violation => Reason::Violation,
+    };
+    let is_black = || check.mean_test().and_then(|test| test.effect).is_some_and(|effect| effect <= -1.0);
+    check.verdict == Verdict::Fail && check.reason == reason && (outcome != Outcome::Black || is_black())
 }
 
 #[test]
@@ -216,7 +223,7 @@ fn the_report_tells_how_the_submission_was_confined_and_what_it_reached_for() {
     assert_eq!(report.checks[0].verdict, Verdict::Pass, "{:#?}", report.checks[0]);
     let sandbox = &report.sandbox;
     assert_eq!(sandbox.level, Level::of(Machine::here().layers()), "{sandbox:?}");
-    assert_eq!(sandbox.missing.is_empty(), sandbox.level == Level::Strong, "{sandbox:?}");
+    assert_eq!(words::missing_layers(sandbox).is_empty(), sandbox.level == Level::Strong, "{sandbox:?}");
     let lines: Vec<usize> = sandbox.findings.iter().map(|finding| finding.line).collect();
     assert_eq!(lines, [source.lines().count() + 2], "{sandbox:?}");
 }
@@ -240,7 +247,7 @@ fn without_a_sandbox_the_report_says_so() {
     let options = Options { assignment, seed: 1, threads: 2, only, limits };
     let report = grade(&workspace, &submission, &options, |_| {}).expect("the harness works");
     assert!(report.sandbox.level < Level::Medium, "{:?}", report.sandbox);
-    assert!(report.sandbox.missing.contains("Landlock"), "{:?}", report.sandbox);
+    assert_eq!(report.sandbox.host.landlock, 0, "{:?}", report.sandbox);
 }
 
 #[test]

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use verdict::error::{Error, Result};
+use verdict::output;
 use verdict::report::{Report, TaskState};
 use verdict::rubric::Rubric;
 
@@ -67,7 +68,7 @@ impl Marks {
     pub fn set(&mut self, mark: Mark) -> Result<()> {
         self.list.retain(|other| (&other.submission, &other.task) != (&mark.submission, &mark.task));
         self.list.push(mark);
-        Ok(arty::image::write_aside(&self.path, |writer| serde_json::to_writer_pretty(writer, &self.list))?)
+        output::write_json(&self.path, &self.list)
     }
 
     /// Puts the marks of a report's submission into it.

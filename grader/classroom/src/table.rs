@@ -5,6 +5,7 @@ use std::path::Path;
 use csv::{ReaderBuilder, WriterBuilder};
 
 use verdict::error::{Error, Result};
+use verdict::output;
 
 /// More than the largest class has.
 const MAX_BYTES: u64 = 16 << 20;
@@ -104,7 +105,7 @@ impl Table {
     /// # Errors
     /// If it cannot be written.
     pub fn save(&self, path: &Path) -> Result<()> {
-        Ok(arty::image::write_aside(path, |file| -> std::io::Result<()> {
+        output::write(path, |file| -> std::io::Result<()> {
             use std::io::Write;
             if self.marked {
                 file.write_all("\u{feff}".as_bytes())?;
@@ -115,7 +116,7 @@ impl Table {
                 writer.write_record(&row.cells)?;
             }
             writer.flush()
-        })?)
+        })
     }
 }
 

@@ -11,6 +11,7 @@ pub mod pictures;
 mod profile;
 mod progress;
 pub mod replay;
+pub mod streams;
 mod terminal;
 pub mod words;
 

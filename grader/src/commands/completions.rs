@@ -1,24 +1,22 @@
 //! `grader completions`.
 
-use std::io::Write;
 use std::process::ExitCode;
 
-use clap::CommandFactory;
 use clap_complete::Shell;
 
+use present::streams::print;
 use verdict::error::Result;
 
-/// Print what a shell needs to complete the grader's commands and options.
+/// Print the completions of a shell: bash, elvish, fish, powershell or zsh
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// The shell
+    /// Shell to complete commands and options for
     shell: Shell,
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
+pub(super) fn run(arguments: &Arguments, mut command_line: clap::Command) -> Result<ExitCode> {
     let mut script = Vec::new();
-    clap_complete::generate(arguments.shell, &mut super::Arguments::command(), "grader", &mut script);
-    // Nobody may be reading any more.
-    let _ = std::io::stdout().lock().write_all(&script);
+    clap_complete::generate(arguments.shell, &mut command_line, "grader", &mut script);
+    print(String::from_utf8_lossy(&script))?;
     Ok(ExitCode::SUCCESS)
 }

@@ -2,50 +2,51 @@
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 
-use arty::image::check_writable;
 use arty::integrator::Technique;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use harness::build::{Framework, compile};
+use harness::build::{Framework, SubmissionProgram, compile};
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
 use judge::convergence::{Contestant, Options, crops, measure};
 use judge::reference::Oracle;
 use present::convergence::{page, print_table, save_csv, save_json, svg};
-use verdict::convergence::{Role, TELLING_SCENES};
-use verdict::error::{Error, Result};
-use verdict::report::LeftOut;
+use present::streams::note;
+use verdict::convergence::{Convergence, LeftOut, Role, TELLING_SCENES};
+use verdict::error::Result;
+use verdict::output;
 
-/// Measure the error of submissions against run time, beside the solution and plain BSDF sampling.
+/// Measure the error of submissions against run time, compared with the solution and plain BSDF sampling
 ///
-/// Separate renderings of several lengths, in turns with the other programs, on the processor time that each took.
-/// Errors are relative MSEs against the stored references, whose own noise is subtracted. The line of an unbiased
-/// program falls with slope −1; one that flattens has a bias. Writes convergence.svg, .csv and .json, and
-/// convergence.html with the plot and crops after equal time.
+/// Each point is many separate renderings of one length, measured in processor time; programs take turns. Errors are
+/// relative MSEs against the stored references, whose own noise is subtracted. The curve of an unbiased program falls
+/// with slope −1; a curve that flattens has a bias. Writes convergence.svg, .csv and .json, and convergence.html with
+/// the plot and crops at equal time.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Each a render_pt.rs, or a folder with one in it [default: the student file in the skeleton]
+    /// Submissions, each a render_pt.rs or a folder with one in it [default: the student file in the skeleton]
     submissions: Vec<PathBuf>,
-    /// Scenes by name; may be given several times [default: four that tell much]
+    /// Scene by name; repeatable [default: cornell_box, cornell_box_glossy, veach_mis, many_lights]
     #[arg(long, value_name = "SCENE")]
     scene: Vec<String>,
-    /// Techniques; may be given several times [default: nee and mis]
+    /// Technique; repeatable [default: nee and mis]
     #[arg(long, value_name = "TECHNIQUE")]
     technique: Vec<Technique>,
-    /// Processor time for all of it, in seconds
+    /// Total processor time in seconds
     #[arg(long, default_value_t = 60.0, value_parser = above_zero)]
     seconds: f64,
-    /// Give the time to this relative MSE [default: what the solution has halfway]
+    /// Report the time needed to reach this relMSE [default: the solution's halfway through]
     #[arg(long, value_name = "ERROR", value_parser = above_zero)]
     error: Option<f64>,
     /// Seed of all random numbers
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Threads of each program; more than one makes its processor time less certain
+    /// Threads of each program; with more than one, processor times are less accurate
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: u16,
-    /// Folder for the results; it is made if it is not there
+    /// Folder for the results; created if missing
     #[arg(long, value_name = "DIR", default_value = "convergence")]
     out: PathBuf,
 }
@@ -53,79 +54,117 @@ pub(super) struct Arguments {
 /// Lengths of renderings, from the shortest to the longest.
 const LENGTHS: u32 = 7;
 
-pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
-    let workspace = Workspace::find()?;
-    let paths = if arguments.submissions.is_empty() {
-        vec![workspace.student_file()]
-    } else {
-        arguments.submissions.clone()
-    };
-    let submissions = paths.iter().map(|path| intake::read(path)).collect::<Result<Vec<_>>>()?;
-    let or_default = |given: &[String]| match given.is_empty() {
-        true => TELLING_SCENES.map(str::to_owned).to_vec(),
-        false => given.to_vec(),
-    };
-    let options = Options {
-        scenes: or_default(&arguments.scene),
-        techniques: match arguments.technique.is_empty() {
-            true => vec![Technique::Nee, Technique::Mis],
-            false => arguments.technique.clone(),
-        },
-        seconds: arguments.seconds,
-        target: arguments.error,
-        seed: arguments.seed,
-        threads: usize::from(arguments.jobs),
-        lengths: LENGTHS,
-    };
-    std::fs::create_dir_all(&arguments.out).map_err(|error| Error::file(&arguments.out, error))?;
-    let file = |extension: &str| arguments.out.join("convergence").with_extension(extension);
-    ["svg", "csv", "json", "html"].into_iter().try_for_each(|extension| check_writable(&file(extension)))?;
-
-    let framework = Framework::build(&workspace)?;
-    let mut left_out = Vec::new();
-    let mut programs = Vec::new();
-    for (submission, name) in submissions.iter().zip(names(&paths)) {
-        match compile(&framework, &submission.source, &Limits::default())? {
-            Ok(program) => programs.push((name, program)),
-            Err(_) => left_out.push(left_out_everywhere(&name, "it does not compile")),
-        }
+pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
+    output::create_folder(&arguments.out)?;
+    for extension in ["svg", "csv", "json", "html"] {
+        output::check_writable(&arguments.file(extension))?;
     }
-    let solution = Oracle::of(&workspace, &framework)?.map(|oracle| oracle.program()).transpose()?;
-    if solution.is_none() {
-        left_out.push(left_out_everywhere("the solution", "it is not in this checkout"));
-    }
-    let mut contestants: Vec<Contestant<'_>> = programs
-        .iter()
-        .map(|(name, program)| Contestant { name: name.clone(), role: Role::Submission, program })
-        .collect();
-    let named = |name: &str, role, program| Contestant { name: name.to_owned(), role, program };
-    contestants.extend(solution.as_deref().map(|program| named("solution", Role::Solution, program)));
-    if let Some(program) = solution.as_deref().or(programs.first().map(|(_, program)| program)) {
-        contestants.push(named("BSDF sampling", Role::Baseline, program));
-    }
-
+    let programs = Programs::build(&arguments.submissions, workspace)?;
+    let contestants = programs.contestants();
     let progress = progress_bar();
-    let mut convergence = measure(&workspace, &contestants, &options, |done| {
+    let mut convergence = measure(workspace, &contestants, &arguments.options(), |done| {
         progress.set_position((done * STEPS as f64) as u64)
     })?;
     progress.finish_and_clear();
-    convergence.left_out.splice(0..0, left_out);
-    save_json(&convergence, &file("json"))?;
-    save_csv(&convergence, &file("csv"))?;
-    if let Some(picture) = svg(&convergence) {
-        arty::image::write_aside(&file("svg"), |writer| {
-            std::io::Write::write_all(writer, picture.as_bytes())
-        })?;
-    }
-    eprintln!("rendering crops after equal time …");
-    let text = page(&convergence, &crops(&workspace, &contestants, &convergence)?);
-    arty::image::write_aside(&file("html"), |writer| std::io::Write::write_all(writer, text.as_bytes()))?;
+    convergence.left_out.splice(0..0, programs.left_out.iter().cloned());
     print_table(&convergence);
-    eprintln!("page, plot and numbers: {}, .svg, .csv, .json", file("html").display());
+    save(arguments, workspace, &contestants, &convergence)?;
     Ok(ExitCode::SUCCESS)
 }
 
-/// What each submission is called: by its file or folder, or by all of its path where that is the name of several.
+impl Arguments {
+    fn options(&self) -> Options {
+        Options {
+            scenes: match self.scene.as_slice() {
+                [] => TELLING_SCENES.map(str::to_owned).to_vec(),
+                given => given.to_vec(),
+            },
+            techniques: match self.technique.as_slice() {
+                [] => vec![Technique::Nee, Technique::Mis],
+                given => given.to_vec(),
+            },
+            seconds: self.seconds,
+            target: self.error,
+            seed: self.seed,
+            threads: usize::from(self.jobs),
+            lengths: LENGTHS,
+        }
+    }
+
+    fn file(&self, extension: &str) -> PathBuf {
+        self.out.join("convergence").with_extension(extension)
+    }
+}
+
+/// Writes the measurements as JSON, CSV and SVG, and the page with crops.
+fn save(
+    arguments: &Arguments,
+    workspace: &Workspace,
+    contestants: &[Contestant<'_>],
+    convergence: &Convergence,
+) -> Result<()> {
+    save_json(convergence, &arguments.file("json"))?;
+    save_csv(convergence, &arguments.file("csv"))?;
+    if let Some(plot) = svg(convergence) {
+        output::write_bytes(&arguments.file("svg"), plot)?;
+    }
+    note("rendering crops at equal time …");
+    let html = arguments.file("html");
+    output::write_bytes(&html, page(convergence, &crops(workspace, contestants, convergence)?))?;
+    note(format_args!("page, plot and numbers: {}, .svg, .csv, .json", html.display()));
+    Ok(())
+}
+
+/// The programs that are measured.
+struct Programs {
+    /// Submissions that compile, with their names.
+    submissions: Vec<(String, SubmissionProgram)>,
+    /// `None` if the checkout does not have it.
+    solution: Option<Arc<SubmissionProgram>>,
+    /// Programs that cannot be measured.
+    left_out: Vec<LeftOut>,
+}
+
+impl Programs {
+    /// Compiles submissions, without any the student file, and the solution.
+    fn build(paths: &[PathBuf], workspace: &Workspace) -> Result<Self> {
+        let paths = if paths.is_empty() { vec![workspace.student_file()] } else { paths.to_vec() };
+        let sources = paths.iter().map(|path| intake::read(path)).collect::<Result<Vec<_>>>()?;
+        let framework = Framework::build(workspace)?;
+        let mut left_out = Vec::new();
+        let mut submissions = Vec::new();
+        for (submission, name) in sources.iter().zip(names(&paths)) {
+            match compile(&framework, &submission.source, &Limits::default())? {
+                Ok(program) => submissions.push((name, program)),
+                Err(_) => left_out.push(everywhere(name, "it does not compile")),
+            }
+        }
+        let solution = Oracle::of(workspace, &framework)?.map(|oracle| oracle.program()).transpose()?;
+        if solution.is_none() {
+            left_out.push(everywhere("the solution".to_owned(), "this checkout does not have it"));
+        }
+        Ok(Self { submissions, solution, left_out })
+    }
+
+    /// All programs in the order of the curves. BSDF sampling is that of the solution, or else of the first submission.
+    fn contestants(&self) -> Vec<Contestant<'_>> {
+        let named = |name: &str, role, program| Contestant { name: name.to_owned(), role, program };
+        let submissions = self.submissions.iter();
+        let mut all: Vec<Contestant<'_>> =
+            submissions.map(|(name, program)| named(name, Role::Submission, program)).collect();
+        let solution = self.solution.as_deref();
+        all.extend(solution.map(|program| named("solution", Role::Solution, program)));
+        let baseline = solution.or(self.submissions.first().map(|(_, program)| program));
+        all.extend(baseline.map(|program| named("BSDF sampling", Role::Baseline, program)));
+        all
+    }
+}
+
+fn everywhere(program: String, why: &str) -> LeftOut {
+    LeftOut { program, scene: String::new(), why: why.to_owned() }
+}
+
+/// Names of submissions: file or folder, or the whole path where several would have the same name.
 fn names(paths: &[PathBuf]) -> Vec<String> {
     let short = |path: &Path| {
         let name = if path.file_name().is_some_and(|name| name == verdict::submission::FILE_NAME) {
@@ -143,14 +182,10 @@ fn names(paths: &[PathBuf]) -> Vec<String> {
     paths.iter().zip(&all).map(name).collect()
 }
 
-fn left_out_everywhere(name: &str, why: &str) -> LeftOut {
-    LeftOut { check: format!("convergence of {name}"), scene: String::new(), why: why.to_owned() }
-}
-
-/// Steps of the bar.
+/// Steps of the progress bar.
 const STEPS: u64 = 1000;
 
-/// A bar on a terminal, nothing elsewhere.
+/// A bar on a terminal, hidden elsewhere.
 fn progress_bar() -> ProgressBar {
     let bar = ProgressBar::new(STEPS);
     ProgressStyle::with_template("{bar:30} {percent:>3} %  {elapsed_precise}  measuring")
@@ -167,7 +202,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn submissions_are_called_by_what_tells_them_apart() {
+    fn submissions_of_the_same_name_are_told_apart_by_their_paths() {
         let paths = ["a/render_pt.rs", "b.rs", "x/c.rs", "y/c.rs"].map(PathBuf::from);
         assert_eq!(names(&paths), ["a", "b", "x/c.rs", "y/c.rs"]);
     }

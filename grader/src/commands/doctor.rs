@@ -1,5 +1,6 @@
 //! `grader doctor`.
 
+use std::fmt::Display;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -7,84 +8,97 @@ use harness::build::{Framework, compile};
 use harness::host_process::HostProcess;
 use harness::sandbox::{Layers, Level, Limits, Machine, linker};
 use harness::workspace::Workspace;
+use present::streams::print_line;
+use present::words::missing_layers;
 use verdict::error::Result;
 use verdict::report::Sandbox;
 
-/// Tell what this machine gives for grading: compiler, linker, sandbox, and how to get a better one.
+/// Check this machine for grading: compiler, linker, sandbox, and how to get a better one
 #[derive(clap::Args)]
 pub(super) struct Arguments {}
 
-/// Compiles the starting file and starts it, as a grade would, and tells what was found.
-pub(super) fn run(_: &Arguments) -> Result<ExitCode> {
-    let workspace = Workspace::find()?;
+/// Compiles and starts the student file of the skeleton as a grade would, and prints what was found.
+pub(super) fn run(workspace: &Workspace) -> Result<ExitCode> {
     let limits = Limits::default();
-    say("system", format!("{} on {}", std::env::consts::OS, std::env::consts::ARCH));
-    say("cores", rayon::current_num_threads());
-    say("checkout", free_space(workspace.root()));
-    say("temporary files", free_space(&std::env::temp_dir()));
-    let linker =
-        linker().map_or("`cc` is not in the search path".to_owned(), |path| path.display().to_string());
-    say("linker", linker);
-
-    let framework = Framework::build(&workspace)?;
-    say("framework", framework.dependencies.display());
-    say("compiler", format!("{} ({})", framework.toolchain, framework.rustc.display()));
-    say(
-        "time",
-        format!("{} s to compile, {} s for a job", limits.compile_time.as_secs(), limits.job_time.as_secs()),
-    );
-    say(
-        "memory",
-        format!("{} MiB to compile, {} MiB for a job", limits.compile_memory >> 20, limits.job_memory >> 20),
-    );
-
-    let starter = intake::read(&workspace.student_file())?;
-    let host = match compile(&framework, &starter.source, &limits)? {
-        Ok(program) => {
-            let process = HostProcess::start(&program, 1)?;
-            if let Some(fault) = process.fault() {
-                say("starting file", format!("does not start: {fault}"));
-            }
-            Some((program.layers, process.layers()))
-        }
-        Err(failure) => {
-            say(
-                "starting file",
-                format!("does not compile: {}", failure.messages.lines().next().unwrap_or("")),
-            );
-            None
-        }
-    };
+    print_machine(workspace)?;
+    let framework = Framework::build(workspace)?;
+    print_build(&framework, &limits)?;
     let possible = Machine::here().layers();
-    let (compiler, host) = host.unwrap_or((possible, possible));
-    say("rustc's sandbox", describe(compiler));
-    say("submission's sandbox", describe(host));
-    let sandbox = Sandbox::new(compiler, host, Vec::new());
-    say("level", sandbox.level);
-    if sandbox.level < Level::Strong {
-        println!("\nWhat is missing: {}.", sandbox.missing);
-        let mut advice = Machine::here().advice();
-        if compiler.landlock < possible.landlock {
-            advice.push(
-                "rustc and its linker do not work with their files locked away: with rustup's toolchain and the \
-                 system's gcc they do"
-                    .to_owned(),
-            );
-        }
-        if compiler.unprivileged != possible.unprivileged {
-            advice.push(
-                "rustc cannot be run by another user: put the toolchain where anyone can read it".to_owned(),
-            );
-        }
-        for line in advice {
-            println!("- {line}");
-        }
-    }
+    let (compiler, host) = try_starter(workspace, &framework, &limits)?.unwrap_or((possible, possible));
+    print_sandbox(possible, compiler, host)?;
     Ok(ExitCode::SUCCESS)
 }
 
-fn say(what: &str, found: impl std::fmt::Display) {
-    println!("{what:>18}  {found}");
+fn print_machine(workspace: &Workspace) -> Result<()> {
+    row("system", format_args!("{} on {}", std::env::consts::OS, std::env::consts::ARCH))?;
+    row("cores", rayon::current_num_threads())?;
+    row("checkout", free_space(workspace.root()))?;
+    row("temporary files", free_space(&std::env::temp_dir()))?;
+    let linker =
+        linker().map_or("`cc` is not in the search path".to_owned(), |path| path.display().to_string());
+    row("linker", linker)
+}
+
+fn print_build(framework: &Framework, limits: &Limits) -> Result<()> {
+    row("framework", framework.dependencies.display())?;
+    row("compiler", format_args!("{} ({})", framework.toolchain, framework.rustc.display()))?;
+    let [compile, job] = [limits.compile_time, limits.job_time].map(|time| time.as_secs());
+    row("time limits", format_args!("{compile} s to compile, {job} s per job"))?;
+    let [compile, job] = [limits.compile_memory, limits.job_memory].map(|bytes| bytes >> 20);
+    row("memory limits", format_args!("{compile} MiB to compile, {job} MiB per job"))
+}
+
+/// Sandbox layers of the compiler and of the student file's process; `None` if the file does not compile.
+fn try_starter(
+    workspace: &Workspace,
+    framework: &Framework,
+    limits: &Limits,
+) -> Result<Option<(Layers, Layers)>> {
+    let starter = intake::read(&workspace.student_file())?;
+    match compile(framework, &starter.source, limits)? {
+        Ok(program) => {
+            let process = HostProcess::start(&program, 1)?;
+            if let Some(fault) = process.fault() {
+                row("student file", format_args!("does not start: {fault}"))?;
+            }
+            Ok(Some((program.layers, process.layers())))
+        }
+        Err(failure) => {
+            let first = failure.messages.lines().next().unwrap_or_default();
+            row("student file", format_args!("does not compile: {first}"))?;
+            Ok(None)
+        }
+    }
+}
+
+fn print_sandbox(possible: Layers, compiler: Layers, host: Layers) -> Result<()> {
+    row("rustc's sandbox", describe(compiler))?;
+    row("program's sandbox", describe(host))?;
+    let sandbox = Sandbox::new(compiler, host, Vec::new());
+    row("level", sandbox.level)?;
+    if sandbox.level >= Level::Strong {
+        return Ok(());
+    }
+    print_line(format_args!("\nMissing: {}.", missing_layers(&sandbox)))?;
+    let mut advice = Machine::here().advice();
+    if compiler.landlock < possible.landlock {
+        advice.push(
+            "rustc and its linker fail when Landlock restricts their files: use rustup's toolchain and the system's \
+             gcc"
+            .to_owned(),
+        );
+    }
+    if compiler.unprivileged != possible.unprivileged {
+        advice.push(
+            "rustc cannot be run by another user: install the toolchain where every user can read it"
+                .to_owned(),
+        );
+    }
+    advice.iter().try_for_each(|line| print_line(format_args!("- {line}")))
+}
+
+fn row(name: &str, value: impl Display) -> Result<()> {
+    print_line(format_args!("{name:>18}  {value}"))
 }
 
 fn describe(layers: Layers) -> String {
@@ -102,7 +116,7 @@ fn describe(layers: Layers) -> String {
     .join(", ")
 }
 
-/// A folder, and how much fits in it, where the system tells.
+/// A folder with the free space of its file system, where that is known.
 fn free_space(folder: &Path) -> String {
     #[cfg(unix)]
     if let Ok(found) = rustix::fs::statvfs(folder) {

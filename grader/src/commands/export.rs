@@ -5,21 +5,22 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use present::export::{Export, Format, Received, Surroundings};
+use present::streams::{note, print};
 use verdict::error::{Error, Result};
 use verdict::report::Report;
 
-/// Write a report in the format of another system: Markdown, JUnit, GitHub, Gradescope, Classroom 50, Autolab.
+/// Write a report in the format of another system: Markdown, JUnit, GitHub, Gradescope, Classroom 50, Autolab
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// The report.json of a grade
+    /// report.json of a grade
     report: PathBuf,
-    /// The format
+    /// Format to write
     #[arg(long)]
     format: Format,
-    /// The file to write; standard output without it
+    /// File to write [default: standard output]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Gradescope's submission_metadata.json, to say how late a submission is
+    /// Gradescope's submission_metadata.json, to state how late a submission is
     #[arg(long, value_name = "FILE")]
     metadata: Option<PathBuf>,
 }
@@ -33,7 +34,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Writes the files that were asked for with `--export`, and what GitHub's machines show if it is there.
+/// Writes the files that `--export` asks for, and on GitHub Actions a step summary and annotations.
 ///
 /// # Errors
 /// If a file cannot be written.
@@ -41,37 +42,36 @@ pub(super) fn after_grade(report: &Report, exports: &[Export], folder: &Path) ->
     let surroundings = surroundings_of(report);
     let variable = |name: &str| surroundings.environment.get(name).filter(|value| !value.is_empty());
     if let Some(file) = variable("GITHUB_STEP_SUMMARY") {
-        // Other steps' summaries may stand there already.
-        let path = Path::new(file);
-        let summary = Format::Markdown.render(report, &surroundings)?;
-        std::fs::OpenOptions::new()
-            .create(true)
-            .append(true)
-            .open(path)
-            .and_then(|mut file| file.write_all(summary.as_bytes()))
-            .map_err(|error| Error::file(path, error))?;
-        eprintln!("GITHUB_STEP_SUMMARY is set: a summary was added to it");
+        append(Path::new(file), &Format::Markdown.render(report, &surroundings)?)?;
+        note("GITHUB_STEP_SUMMARY is set: a summary was added to it");
     }
-    let asked_for = exports.iter().any(|export| export.format == Format::Github);
-    if variable("GITHUB_ACTIONS").is_some_and(|value| value == "true") && !asked_for {
-        Export { format: Format::Github, file: None }.write(report, &surroundings, folder)?;
-        eprintln!("GITHUB_ACTIONS is set: annotations were printed");
+    let is_asked_for = exports.iter().any(|export| export.format == Format::Github);
+    if variable("GITHUB_ACTIONS").is_some_and(|value| value == "true") && !is_asked_for {
+        print(Format::Github.render(report, &surroundings)?)?;
+        note("GITHUB_ACTIONS is set: annotations were printed");
     }
     let mut files = exports.iter().filter(|export| export.target(folder).is_some());
     files.try_for_each(|export| export.write(report, &surroundings, folder))
 }
 
-/// Writes what was asked for on standard output, after everything else: Autolab reads the last line.
+/// Writes the formats that `--export` sends to standard output, after everything else: Autolab reads the last line.
 ///
 /// # Errors
-/// If it cannot be written.
+/// If standard output cannot be written.
 pub(super) fn at_the_end(report: &Report, exports: &[Export], folder: &Path) -> Result<()> {
     let surroundings = surroundings_of(report);
     let mut others = exports.iter().filter(|export| export.target(folder).is_none());
     others.try_for_each(|export| export.write(report, &surroundings, folder))
 }
 
-/// Where a report is exported, with the lines of its tasks if its source is still there.
+/// Adds a text to a file, which may hold the summaries of other steps.
+fn append(path: &Path, text: &str) -> Result<()> {
+    let file = std::fs::OpenOptions::new().create(true).append(true).open(path);
+    file.and_then(|mut file| file.write_all(text.as_bytes())).map_err(|error| Error::output(path, error))
+}
+
+/// What the formats need to know beside the report: the environment, and the lines of its tasks if its source is still
+/// there.
 fn surroundings_of(report: &Report) -> Surroundings {
     Surroundings::here(report, intake::read(report.submission.path.as_ref()).ok().as_ref())
 }

@@ -1,4 +1,4 @@
-//! What a grade does once its points stand: error against run time, pictures, and the report as a page.
+//! What a grade does after its points are known: convergence, pictures, and the report as pages.
 
 use std::path::Path;
 
@@ -11,11 +11,16 @@ use judge::reference::Oracle;
 use present::convergence::print_sentences;
 use present::page::{Readers, pages_beside, pictures_beside, write_pages};
 use present::pictures::save;
+use present::streams::{note, print_line};
 use verdict::error::Result;
 use verdict::pictures::Picture;
 use verdict::report::Report;
 
-/// Completes the report on a program, saves it again, and writes it as pages beside it. The points do not change.
+/// Adds convergence and pictures of a program to its report, saves the report again, and writes it as pages beside
+/// `file`. Without a program (nothing compiled), only the pages are written. Points do not change.
+///
+/// # Errors
+/// If the harness fails, or a file cannot be written.
 pub(super) fn complete(
     workspace: &Workspace,
     grader: &Grader,
@@ -25,11 +30,11 @@ pub(super) fn complete(
 ) -> Result<()> {
     let mut shown = Vec::new();
     if let Some(program) = program {
-        eprintln!("measuring error against run time, for no points (--no-report leaves it out) …");
+        note("measuring error against run time, which gives no points (--no-report skips it) …");
         let Options { seed, threads, .. } = grader.options();
         let solution = grader.oracle().map(Oracle::program).transpose()?;
         let convergence = brief(workspace, program, solution.as_deref(), *seed)?;
-        println!("\nError against run time, for no points");
+        print_line("\nError against run time (gives no points)")?;
         print_sentences(&convergence);
         report.convergence = Some(convergence);
         shown = pictures(workspace, program, report, *threads, *seed, MAX_PICTURES)?;
@@ -37,11 +42,11 @@ pub(super) fn complete(
     }
     report.save(file)?;
     save(&shown, &pictures_beside(file))?;
-    // Students have no solution, and nobody to write the other edition for.
-    let staff = workspace.solution_file().is_file();
-    let readers = if staff { Readers::Staff(None) } else { Readers::Student };
+    // Students have no solution, and only need their own edition.
+    let is_staff = workspace.solution_file().is_file();
+    let readers = if is_staff { Readers::Staff(None) } else { Readers::Student };
     write_pages(report, &shown, file, readers)?;
     let [student, tutor] = pages_beside(file);
-    eprintln!("page: {}", if staff { tutor } else { student }.display());
+    note(format_args!("page: {}", if is_staff { tutor } else { student }.display()));
     Ok(())
 }

@@ -3,59 +3,60 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use arty::image::check_writable;
-
-use super::lateness::When;
+use super::lateness::{Received, When};
 use super::min_sandbox::MinSandbox;
 use super::{export, full_report, watch};
 use classroom::marks::Marks;
 use harness::assignment::Assignment;
-use harness::build::Framework;
+use harness::build::{Framework, SubmissionProgram};
 use harness::workspace::Workspace;
 use intake::{self, Intake, Refusal};
 use judge::grade::{Grader, Options};
 use present::export::Export;
 use present::page::remove_pages;
+use present::streams::{note, print_line};
 use present::{Progress, print_profile, print_sum, print_summary};
 use verdict::error::{Error, Result};
+use verdict::output;
+use verdict::report::Report;
 use verdict::submission::IntakeFinding;
 
-/// Grade one submission.
+/// Grade one submission: build it, run its checks, print points, write report.json
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// A render_pt.rs, or a folder, .zip, .tar.gz or git repository with one in it [default: the student file in the skeleton]
     submission: Option<PathBuf>,
     #[command(flatten)]
     assignment: Assignment,
-    /// Folder for report.json, report.html (to hand out) and report-tutor.html; it is made if it is not there
+    /// Folder for report.json, report.html (to hand out) and report-tutor.html; created if missing
     #[arg(long, value_name = "DIR", default_value = "report")]
     out: PathBuf,
     /// Seed of all random numbers: the same seed gives the same verdicts
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Run only these checks: by check, kind, scene, technique or task; may be given several times
+    /// Run only these checks, given by check, kind, scene, technique or task; repeatable
     #[arg(long, value_name = "CHECK|SCENE|TASK")]
     only: Vec<String>,
-    /// Threads for the submission [default: one for each core]
+    /// Threads of the submission [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: Option<u16>,
-    /// A submission without a render_pt.rs gets a report with 0 points, where it is an error otherwise: for servers
+    /// Report 0 points for a submission without a render_pt.rs instead of failing (for servers)
     #[arg(long)]
     missing_is_zero: bool,
-    /// Exit with status 1 if fewer points than this are earned, of all automatic points
+    /// Exit with status 1 if fewer automatic points than this are earned
     #[arg(long, value_name = "POINTS", conflicts_with = "only", value_parser = points)]
     fail_under: Option<f64>,
-    /// Give the points only: leave out what follows them, error against run time and pages (also left out with --only)
+    /// Score only; skip convergence and HTML (implied by --only)
     #[arg(long)]
     no_report: bool,
-    /// Write the report in another format, too: markdown, junit, github, gradescope, classroom50, autolab; a file may
-    /// follow (`-` is standard output); may be given several times
+    /// Also write the report as markdown, junit, github, gradescope, classroom50 or autolab, to a file if one is given
+    /// (`-` is standard output); repeatable
     #[arg(long, value_name = "FORMAT[:FILE]", conflicts_with = "watch")]
     export: Vec<Export>,
-    /// Say where the time until the points went
+    /// Print how the time until the points was spent
     #[arg(long, conflicts_with_all = ["quiet", "watch"])]
     profile: bool,
-    /// Print nothing but the sum of points; files are written all the same
+    /// Print only the sum of points; all files are still written
     #[arg(long, short, conflicts_with = "watch")]
     quiet: bool,
     /// Grade again on every save, and show one short table; Ctrl-C ends it
@@ -67,80 +68,118 @@ pub(super) struct Arguments {
     when: When,
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
-    let workspace = Workspace::find()?;
-    let path = arguments.submission.clone().unwrap_or_else(|| workspace.student_file());
-    let path = relative(path);
-    let received = arguments.when.read(&workspace, &arguments.assignment.name)?;
-    let Intake { outcome, notes, checksums, explanations } =
-        take(&workspace, &path, arguments.missing_is_zero)?;
-    let threads = arguments.jobs.map_or_else(rayon::current_num_threads, usize::from);
-    let options = Options {
-        assignment: arguments.assignment.name.clone(),
-        seed: arguments.seed,
-        threads,
-        only: arguments.only.clone(),
-        limits: arguments.sandbox.of_one(),
-    };
+pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
+    let path = relative(arguments.submission.clone().unwrap_or_else(|| workspace.student_file()));
+    let received = arguments.when.read(workspace, &arguments.assignment.name)?;
+    let intake = take(workspace, &path, arguments.missing_is_zero)?;
     let file = arguments.out.join("report.json");
-    std::fs::create_dir_all(&arguments.out).map_err(|error| Error::file(&arguments.out, error))?;
-    check_writable(&file)?;
-    remove_pages(&file)?;
-    for export in &arguments.export {
-        export.target(&arguments.out).map_or(Ok(()), |file| check_writable(&file))?;
-    }
+    prepare(arguments, &file)?;
+    let marks = Marks::open(&arguments.out)?;
     let mut progress = if arguments.quiet { Progress::hidden() } else { Progress::new() };
-    if Framework::is_first(&workspace) {
-        progress
-            .say("building the framework that submissions are linked against: once, and it takes a minute …");
+    if Framework::is_first(workspace) {
+        progress.say("building the framework that submissions are linked against: once, takes a minute …");
     }
     if arguments.watch {
-        watch::watch(&workspace, &path, &options, &file)?;
+        watch::watch(workspace, &path, &arguments.options(), &file)?;
     }
-    for note in &notes {
+    for note in &intake.notes {
         progress.say(&format!("note: {note}"));
     }
-    progress.begin("making the framework ready");
-    let grader = Grader::new(&workspace, &options)?;
-    progress.expect(grader.planned());
-    let (mut report, program) = match outcome {
-        Ok(submission) => grader.grade_and_keep(&submission, |check| progress.ended(check))?,
-        Err(refusal) => (grader.refuse(&path, &(&refusal).into())?, None),
-    };
-    progress.finish();
-    report.submission.notes = notes.iter().map(IntakeFinding::from).collect();
-    report.submission.explanations = explanations;
-    Marks::open(&arguments.out)?.apply(&mut report);
+    progress.begin("preparing the framework");
+    let grader = Grader::new(workspace, &arguments.options())?;
+    let checksums = intake.checksums.clone();
+    let (mut report, program) = grade(&grader, intake, &path, &mut progress)?;
+    marks.apply(&mut report);
+
+    // Whatever fails from here on, the points have been printed.
+    print_points(arguments, &report, received.as_ref(), &checksums)?;
     report.save(&file)?;
-    if arguments.quiet {
-        print_sum(&report);
-    } else {
-        print_summary(&report);
-    }
-    if let Some(received) = &received {
-        println!("{}", received.describe(report.points.earned, &checksums));
-    }
-    if arguments.profile {
-        print_profile(&report);
-    }
     export::after_grade(&report, &arguments.export, &arguments.out)?;
+    let mut completed = Ok(());
     if !arguments.no_report && arguments.only.is_empty() {
-        let completed = full_report::complete(&workspace, &grader, program.as_ref(), &mut report, &file);
-        if let Err(error) = completed {
-            // The points stand and are saved: whoever waits for them must not be told that grading failed.
-            eprintln!("warning: the report is not complete: {error}");
+        completed = full_report::complete(workspace, &grader, program.as_ref(), &mut report, &file);
+        if let Err(error) = &completed {
+            note(format_args!("warning: the report is incomplete: {error}"));
         }
     }
     if !arguments.quiet {
-        eprintln!("report: {}", file.display());
+        note(format_args!("report: {}", file.display()));
     }
     export::at_the_end(&report, &arguments.export, &arguments.out)?;
-    let too_few = arguments.fail_under.is_some_and(|least| report.points.earned < least);
+    match completed {
+        Err(error @ Error::Output(_)) => return Err(error),
+        // The points are saved: a script that waits for them must not be told that grading failed.
+        Err(_) | Ok(()) => {}
+    }
+    let too_few = arguments.fail_under.is_some_and(|min| report.points.earned < min);
     Ok(ExitCode::from(u8::from(too_few)))
 }
 
-/// Takes in what was named. That nothing at all is there, or that it cannot be read, is the fault of whoever named it;
-/// any other refusal is that of the submission, which has no points then. So are these with `missing_is_zero`.
+impl Arguments {
+    fn options(&self) -> Options {
+        Options {
+            assignment: self.assignment.name.clone(),
+            seed: self.seed,
+            threads: self.jobs.map_or_else(rayon::current_num_threads, usize::from),
+            only: self.only.clone(),
+            limits: self.sandbox.of_one(),
+        }
+    }
+}
+
+/// Finds out whether all results can be written, and removes the pages of an earlier grade.
+fn prepare(arguments: &Arguments, file: &Path) -> Result<()> {
+    output::create_folder(&arguments.out)?;
+    output::check_writable(file)?;
+    for export in &arguments.export {
+        export.target(&arguments.out).map_or(Ok(()), |file| output::check_writable(&file))?;
+    }
+    remove_pages(file)
+}
+
+/// Grades what was taken in. The program is `None` if nothing compiled.
+fn grade(
+    grader: &Grader,
+    intake: Intake,
+    path: &Path,
+    progress: &mut Progress,
+) -> Result<(Report, Option<SubmissionProgram>)> {
+    progress.expect(grader.planned());
+    let (mut report, program) = match intake.outcome {
+        Ok(submission) => grader.grade_and_keep(&submission, |check| progress.ended(check))?,
+        Err(refusal) => (grader.refuse(path, &(&refusal).into())?, None),
+    };
+    progress.finish();
+    report.submission.notes = intake.notes.iter().map(IntakeFinding::from).collect();
+    report.submission.explanations = intake.explanations;
+    Ok((report, program))
+}
+
+fn print_points(
+    arguments: &Arguments,
+    report: &Report,
+    received: Option<&Received>,
+    checksums: &[String],
+) -> Result<()> {
+    if arguments.quiet {
+        print_sum(report);
+    } else {
+        print_summary(report);
+    }
+    if let Some(received) = received {
+        print_line(received.describe(report.points.earned, checksums))?;
+    }
+    if arguments.profile {
+        print_profile(report);
+    }
+    Ok(())
+}
+
+/// Takes in the submission at `path`.
+///
+/// # Errors
+/// If nothing is there or it cannot be read, unless that means 0 points (`missing_is_zero`). Any other refusal is a
+/// fault of the submission, which then has 0 points.
 fn take(workspace: &Workspace, path: &Path, missing_is_zero: bool) -> Result<Intake> {
     let starter = std::fs::read_to_string(workspace.student_file()).unwrap_or_default();
     let intake = intake::take(&[path.to_owned()], &starter)?;
@@ -153,11 +192,11 @@ fn take(workspace: &Workspace, path: &Path, missing_is_zero: bool) -> Result<Int
 }
 
 fn points(text: &str) -> std::result::Result<f64, String> {
-    let points: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
-    if points.is_finite() { Ok(points) } else { Err("not a number of points".to_owned()) }
+    let points: Option<f64> = text.parse().ok();
+    points.filter(|points| points.is_finite()).ok_or_else(|| "not a number of points".to_owned())
 }
 
-/// The path as a person in the current folder would write it.
+/// The path relative to the current folder if it is below it.
 fn relative(path: PathBuf) -> PathBuf {
     let current = std::env::current_dir().ok();
     current.and_then(|folder| path.strip_prefix(folder).map(PathBuf::from).ok()).unwrap_or(path)

@@ -1,4 +1,4 @@
-//! How late one submission is, in words.
+//! The lateness of one submission.
 
 use std::path::PathBuf;
 
@@ -8,21 +8,21 @@ use harness::workspace::Workspace;
 use verdict::error::{Error, Result};
 use verdict::rubric::Rubric;
 
-/// The options that say when a submission came.
+/// The options that say when a submission was received.
 #[derive(clap::Args)]
 pub(super) struct When {
-    /// When it came, for what being late costs; file times are never used
+    /// Receipt time, for the late policy; file times are never used
     #[arg(long, value_name = "TIME")]
     received_at: Option<String>,
     /// Deadline and extensions [default: course.yml beside the rubric, if there is one]
     #[arg(long, value_name = "FILE.yml", requires = "received_at")]
     course: Option<PathBuf>,
-    /// The student's login, for an extension
+    /// Login of the student, to find an extension
     #[arg(long, requires = "received_at", default_value = "")]
     student: String,
 }
 
-/// When one submission came, and the rules for it.
+/// The receipt time of one submission, and the policy that applies to it.
 pub(super) struct Received {
     policy: Policy,
     receipt: Receipt,
@@ -30,7 +30,10 @@ pub(super) struct Received {
 }
 
 impl When {
-    /// Reads rules and time; `None` if nobody asks.
+    /// Reads policy and time; `None` without `--received-at`.
+    ///
+    /// # Errors
+    /// If a file or the time is wrong, or the rubric has no late policy.
     pub(super) fn read(&self, workspace: &Workspace, assignment: &str) -> Result<Option<Received>> {
         let Some(text) = &self.received_at else { return Ok(None) };
         let rubric = Rubric::load(&workspace.assignment(assignment).join("rubric.yml"))?;
@@ -45,7 +48,8 @@ impl When {
 }
 
 impl Received {
-    /// What counts of the raw points, in a line.
+    /// One line: how late it is, and how many of the raw points count. `checksums` are the MD5 sums of the files that
+    /// were received.
     pub(super) fn describe(&self, raw: f64, checksums: &[String]) -> String {
         let names = [self.student.as_str()];
         let lateness = self.policy.judge(&names, Some(&self.receipt), checksums);
@@ -56,7 +60,7 @@ impl Received {
     }
 }
 
-/// How a submission that came then stands to its deadline; `None` if there is none.
+/// One line: whether a submission that was received then is late; `None` if there is no deadline.
 pub(super) fn standing(
     policy: &Policy,
     names: &[&str],

@@ -1,26 +1,29 @@
-//! How good a sandbox has to be.
+//! The sandbox that a grade asks for.
 
 use harness::sandbox::{Level, Limits};
 
-/// The option that says how good a sandbox has to be.
+/// The option that says which sandbox is enough.
 #[derive(clap::Args)]
 pub(super) struct MinSandbox {
-    /// Grade although the sandbox is no better than this (see `grader doctor`) [default: medium for a class, and for
-    /// one submission where CI is set; otherwise none]
+    /// Weakest sandbox to grade in (see `grader doctor`) [default: medium for a class, and for one submission where CI
+    /// is set; otherwise none]
     #[arg(long, value_name = "LEVEL")]
     allow_sandbox: Option<Level>,
 }
 
 impl MinSandbox {
-    /// The limits for submissions of others.
+    /// Limits for submissions of other people.
     pub(super) fn of_others(&self) -> Limits {
-        Limits { min_level: self.allow_sandbox.unwrap_or(Level::Medium), ..Limits::default() }
+        self.limits(Level::Medium)
     }
 
-    /// The limits for the file that somebody names: usually their own, but in CI that of others.
+    /// Limits for one submission: usually one's own, but in CI somebody else's.
     pub(super) fn of_one(&self) -> Limits {
-        let in_ci = std::env::var_os("CI").is_some_and(|value| !value.is_empty() && value != "false");
-        let least = if in_ci { Level::Medium } else { Level::None };
-        Limits { min_level: self.allow_sandbox.unwrap_or(least), ..Limits::default() }
+        let is_ci = std::env::var_os("CI").is_some_and(|value| !value.is_empty() && value != "false");
+        self.limits(if is_ci { Level::Medium } else { Level::None })
+    }
+
+    fn limits(&self, default: Level) -> Limits {
+        Limits { min_level: self.allow_sandbox.unwrap_or(default), ..Limits::default() }
     }
 }

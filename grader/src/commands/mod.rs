@@ -1,4 +1,5 @@
-//! The commands of the program.
+//! The commands of the program: one file a command. This file parses the command line and hands each command what it
+//! needs.
 
 mod class;
 mod completions;
@@ -16,59 +17,92 @@ mod policy;
 mod replay;
 mod watch;
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
-/// Builds, runs and judges submissions of the path tracing exercise.
+use harness::workspace::Workspace;
+use present::streams::note;
+use verdict::error::Result;
+
+/// Build, run and grade submissions of the path tracing exercise.
 #[derive(Parser)]
 #[command(name = "grader", version, propagate_version = true)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
+    /// Checkout to work in [default: the one that the current folder is in, or else the one that the grader was built
+    /// from]
+    #[arg(long, global = true, value_name = "DIR")]
+    workspace: Option<PathBuf>,
 }
 
+// The help of each command is the doc comment of its arguments.
 #[derive(Subcommand)]
 enum Command {
-    /// Grade one submission: build it, run its checks, print points, write report.json.
     Grade(grade::Arguments),
-    /// Tell what this machine gives for grading: compiler, linker, sandbox, and how to get a better one.
     Doctor(doctor::Arguments),
-    /// Grade a class: a folder of submissions, with deadlines, a gradebook and the files of course systems (for staff).
     Class(class::Arguments),
-    /// Pack your submission: checks that it compiles, packs it, prints its MD5 checksum.
     Pack(pack::Arguments),
-    /// Measure the error of submissions against run time, beside the solution: CSV, JSON, SVG.
     Converge(converge::Arguments),
-    /// Write a report in the format of another system: Markdown, JUnit, GitHub, Gradescope, Classroom 50, Autolab.
     Export(export::Arguments),
-    /// Print the completions of a shell: bash, elvish, fish, powershell or zsh.
     Completions(completions::Arguments),
-    /// Record the points that a person gives for a task.
     Mark(mark::Arguments),
-    /// Say which checks mean something in a scene, and why others are left out.
     Plan(plan::Arguments),
-    /// Follow one path again and show every call of the submission.
     Replay(replay::Arguments),
 }
 
 /// Runs the command line. The exit status is 0 if the command did its work, whatever the points; 1 for fewer points
-/// than `--fail-under`, or a variant that is not as expected; 2 if the command line or an input is wrong; 3 if the grader itself failed.
+/// than `--fail-under`; 2 if the command line or an input is wrong; 3 if the grader failed, or could not write a result.
 pub(crate) fn run() -> ExitCode {
-    let outcome = match Arguments::parse().command {
-        Command::Grade(arguments) => grade::run(&arguments),
-        Command::Doctor(arguments) => doctor::run(&arguments),
-        Command::Class(arguments) => class::run_class(&arguments),
-        Command::Pack(arguments) => pack::run(&arguments),
-        Command::Converge(arguments) => converge::run(&arguments),
-        Command::Export(arguments) => export::run(&arguments),
-        Command::Completions(arguments) => completions::run(&arguments),
-        Command::Mark(arguments) => mark::run(&arguments),
-        Command::Plan(arguments) => plan::run(&arguments),
-        Command::Replay(arguments) => replay::run(&arguments),
-    };
-    outcome.unwrap_or_else(|error| {
-        eprintln!("error: {error}");
+    let matches = command_line().get_matches();
+    // What clap has parsed is what the same structure is read from.
+    let arguments = Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    arguments.run().unwrap_or_else(|error| {
+        note(format_args!("error: {error}"));
         error.exit_code()
+    })
+}
+
+impl Arguments {
+    fn run(&self) -> Result<ExitCode> {
+        let workspace = || self.workspace.as_deref().map_or_else(Workspace::find, Workspace::open);
+        match &self.command {
+            Command::Grade(arguments) => grade::run(arguments, &workspace()?),
+            Command::Doctor(_) => doctor::run(&workspace()?),
+            Command::Class(arguments) => class::run(arguments, &workspace()?),
+            Command::Pack(arguments) => pack::run(arguments, &workspace()?),
+            Command::Converge(arguments) => converge::run(arguments, &workspace()?),
+            Command::Export(arguments) => export::run(arguments),
+            Command::Completions(arguments) => completions::run(arguments, command_line()),
+            Command::Mark(arguments) => mark::run(arguments, &workspace()?),
+            Command::Plan(arguments) => plan::run(arguments, &workspace()?),
+            Command::Replay(arguments) => replay::run(arguments, &workspace()?),
+        }
+    }
+}
+
+/// Commands that `--help` shows only in a checkout with the solution.
+const STAFF_COMMANDS: [&str; 2] = ["class", "mark"];
+
+/// Options of `grade` that `--help` shows only there.
+const STAFF_OPTIONS: [&str; 4] = ["missing_is_zero", "received_at", "course", "student"];
+
+/// The command line. Where the checkout has no solution, it is a student's: what only staff use still works, but is not
+/// shown.
+fn command_line() -> clap::Command {
+    let command = Arguments::command();
+    if Workspace::find().is_ok_and(|workspace| workspace.solution_file().is_file()) {
+        return command;
+    }
+    let command = STAFF_COMMANDS
+        .into_iter()
+        .fold(command, |command, name| command.mut_subcommand(name, |staff| staff.hide(true)));
+    command.mut_subcommand("grade", |grade| {
+        grade.mut_args(|argument| {
+            let is_staff = STAFF_OPTIONS.contains(&argument.get_id().as_str());
+            if is_staff { argument.hide(true) } else { argument }
+        })
     })
 }

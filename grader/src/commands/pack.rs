@@ -1,7 +1,7 @@
-//! `grader pack`: what students hand in.
+//! `grader pack`: the archive that students hand in.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use jiff::Timestamp;
@@ -16,21 +16,24 @@ use harness::build::{Framework, compile};
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
 use intake::md5_of;
+use present::streams::{note, print_line};
+use present::words::count;
 use verdict::error::{Error, Result};
-use verdict::submission::FILE_NAME;
+use verdict::output;
+use verdict::submission::{FILE_NAME, Submission};
 
-/// Pack your submission: checks that it compiles, packs it with your explanation, prints the MD5 checksum.
+/// Pack your submission with your explanation, check that it compiles, and print its MD5 checksum
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// The file to hand in [default: the student file in the skeleton]
+    /// File to hand in [default: the student file in the skeleton]
     file: Option<PathBuf>,
-    /// The written explanation (.txt, .md or .pdf); may be given several times
+    /// Written explanation (.txt, .md or .pdf); repeatable
     #[arg(long, value_name = "FILE")]
     explanation: Vec<PathBuf>,
-    /// The archive to write
+    /// Archive to write
     #[arg(long, value_name = "FILE.zip", default_value = "submission.zip")]
     out: PathBuf,
-    /// Pack it even if it does not compile: it will earn points only where a person gives them
+    /// Pack it even if it does not compile: only your tutor can then give points
     #[arg(long)]
     anyway: bool,
     /// Your login, if you have an extension
@@ -43,17 +46,43 @@ pub(super) struct Arguments {
     course: Option<PathBuf>,
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
-    let workspace = Workspace::find()?;
-    let rubric = arguments.assignment.rubric(&workspace)?;
-    let policy = policy(&workspace, &arguments.assignment.name, &rubric, arguments.course.as_deref())?;
+pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
+    let rubric = arguments.assignment.rubric(workspace)?;
+    let policy = policy(workspace, &arguments.assignment.name, &rubric, arguments.course.as_deref())?;
     let file = arguments.file.clone().unwrap_or_else(|| workspace.student_file());
     let submission = intake::read(&file)?;
+    let entries = entries(&submission, &arguments.explanation)?;
+    note(format_args!("compiling {} …", file.display()));
+    if let Err(failure) = compile(&Framework::build(workspace)?, &submission.source, &Limits::default())? {
+        note(&failure.messages);
+        if !arguments.anyway {
+            return Err(Error::Input("not packed: it does not compile (--anyway packs it)".to_owned()));
+        }
+    }
+    if arguments.explanation.is_empty() && rubric.tasks.iter().any(|task| task.manual) {
+        note("note: there is no written explanation in it (--explanation=FILE)");
+    }
+    let bytes = archive(&entries).map_err(|error| Error::Harness(format!("the archive: {error}")))?;
+    output::write_bytes(&arguments.out, &bytes)?;
+    let size = count(bytes.len(), "byte");
+    print_line(format_args!("{}: {size}, MD5 {}", arguments.out.display(), md5_of(&bytes)))?;
+    for (name, _) in &entries {
+        print_line(format_args!("  {name}"))?;
+    }
+    let now = Receipt { received_at: Some(Timestamp::now()), ..Receipt::default() };
+    let names = [arguments.student.as_str()];
+    if let Some(standing) = policy.as_ref().and_then(|policy| standing(policy, &names, &now, &[])) {
+        print_line(standing)?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Names and contents of the files in the archive.
+fn entries(submission: &Submission, explanations: &[PathBuf]) -> Result<Vec<(String, Vec<u8>)>> {
     let mut entries = vec![(FILE_NAME.to_owned(), submission.source.clone().into_bytes())];
-    for path in &arguments.explanation {
+    for path in explanations {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let lower = name.to_lowercase();
-        if ![".txt", ".md", ".pdf"].iter().any(|end| lower.ends_with(end)) {
+        if !is_explanation(path) {
             return Err(Error::file(path, "an explanation is a .txt, .md or .pdf"));
         }
         if entries.iter().any(|(other, _)| *other == name) {
@@ -61,33 +90,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         }
         entries.push((name, std::fs::read(path).map_err(|error| Error::file(path, error))?));
     }
-    eprintln!("compiling {} …", file.display());
-    if let Err(failure) = compile(&Framework::build(&workspace)?, &submission.source, &Limits::default())? {
-        eprintln!("{}", failure.messages);
-        if !arguments.anyway {
-            return Err(Error::Input(
-                "it does not compile, and was not packed (--anyway packs it)".to_owned(),
-            ));
-        }
-    }
-    if entries.len() == 1 && rubric.tasks.iter().any(|task| task.manual) {
-        eprintln!("note: there is no written explanation in it (--explanation=FILE)");
-    }
-    let bytes = archive(&entries).map_err(|error| Error::Harness(format!("the archive: {error}")))?;
-    arty::image::write_aside(&arguments.out, |writer| writer.write_all(&bytes))?;
-    println!("{}: {} bytes, MD5 {}", arguments.out.display(), bytes.len(), md5_of(&bytes));
-    for (name, _) in &entries {
-        println!("  {name}");
-    }
-    let now = Receipt { received_at: Some(Timestamp::now()), ..Receipt::default() };
-    let names = [arguments.student.as_str()];
-    if let Some(standing) = policy.as_ref().and_then(|policy| standing(policy, &names, &now, &[])) {
-        println!("{standing}");
-    }
-    Ok(ExitCode::SUCCESS)
+    Ok(entries)
 }
 
-/// A zip archive that is the same whenever and wherever it is made.
+fn is_explanation(path: &Path) -> bool {
+    let extension = path.extension().unwrap_or_default();
+    ["txt", "md", "pdf"].iter().any(|known| extension.eq_ignore_ascii_case(known))
+}
+
+/// Makes a zip archive whose bytes depend on nothing but the entries.
 fn archive(entries: &[(String, Vec<u8>)]) -> zip::result::ZipResult<Vec<u8>> {
     let mut writer = ZipWriter::new(std::io::Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default()

@@ -1,80 +1,78 @@
 //! `grader plan`.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use arty::scene::{Scene, SceneDescription};
 
 use harness::workspace::Workspace;
-use judge::checks::JudgedScene;
+use judge::checks::SceneWithReference;
 use judge::plan::{self, Entry};
 use judge::reference::{self, Reference};
+use present::streams::print_line;
+use present::words;
 use verdict::error::{Error, Result};
 
-/// Say which checks mean something in a scene, and why others are left out.
+/// List the checks that apply to a scene, and why others are skipped
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// A scene: its name in the collection, or a file
+    /// A scene: its name in scenes/, or a file
     scene: PathBuf,
     /// Print JSON
     #[arg(long)]
     json: bool,
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
-    let workspace = Workspace::find()?;
-    let judged = load(&workspace, &arguments.scene)?;
-    let entries = plan::for_scene(&judged);
-    let mut out = std::io::stdout().lock();
-    let text = if arguments.json {
-        let list: Vec<_> = entries
-            .iter()
-            .map(|entry| {
-                serde_json::json!({
-                    "check": entry.check,
-                    "technique": entry.technique,
-                    "applies": entry.why_not.is_none(),
-                    "why_not": entry.why_not,
-                })
-            })
-            .collect();
-        serde_json::to_string_pretty(&list).map_err(|error| Error::Harness(error.to_string()))?
+pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
+    let scene = load(workspace, &arguments.scene)?;
+    let entries = plan::for_scene(&scene);
+    if arguments.json {
+        print_line(json(&entries)?)?;
     } else {
-        format!("{}\n\n{}", judged.scene.features(), list(&entries))
-    };
-    // Nobody may be reading any more.
-    let _ = writeln!(out, "{text}");
+        print_line(format_args!("{}\n\n{}", scene.scene.features(), list(&entries)))?;
+    }
     Ok(ExitCode::SUCCESS)
 }
 
-/// Techniques of which the same is to be said stand in one line.
+/// The entries as JSON. `why_not` is a sentence, `code` the same as data.
+fn json(entries: &[Entry]) -> Result<String> {
+    let object = |Entry { check, technique, why_not }: &Entry| {
+        serde_json::json!({
+            "check": check,
+            "technique": technique,
+            "applies": why_not.is_none(),
+            "why_not": why_not.as_ref().map(words::why_not),
+            "code": why_not,
+        })
+    };
+    let list: Vec<_> = entries.iter().map(object).collect();
+    serde_json::to_string_pretty(&list).map_err(|error| Error::Harness(error.to_string()))
+}
+
+/// One line for each check and reason, with all techniques that share it.
 fn list(entries: &[Entry]) -> String {
     let mut lines: Vec<(&Entry, Vec<String>)> = Vec::new();
     for entry in entries {
-        match lines
-            .iter_mut()
-            .find(|(other, _)| (other.check, &other.why_not) == (entry.check, &entry.why_not))
-        {
+        let is_same = |other: &Entry| (other.check, &other.why_not) == (entry.check, &entry.why_not);
+        match lines.iter_mut().find(|(other, _)| is_same(other)) {
             Some((_, techniques)) => techniques.push(entry.technique.to_string()),
             None => lines.push((entry, vec![entry.technique.to_string()])),
         }
     }
     let line = |(entry, techniques): &(&Entry, Vec<String>)| {
         let applies = if entry.why_not.is_none() { "yes" } else { "no" };
-        let why = entry.why_not.as_deref().unwrap_or_default();
-        format!("{applies:<4}{:<15} {:<15} {why}", entry.check.name(), techniques.join(", "))
-            .trim_end()
-            .to_owned()
+        let why = entry.why_not.as_ref().map(words::why_not).unwrap_or_default();
+        let line = format!("{applies:<4}{:<15} {:<15} {why}", entry.check.name(), techniques.join(", "));
+        line.trim_end().to_owned()
     };
     lines.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// A scene of the collection has a reference, a file of anyone's has none.
-fn load(workspace: &Workspace, scene: &Path) -> Result<JudgedScene> {
+/// A scene by name, with its reference, or from a file, without one.
+fn load(workspace: &Workspace, scene: &Path) -> Result<SceneWithReference> {
     let name = scene.to_string_lossy();
     let known = workspace.scene_file(&name);
-    let with = |description: SceneDescription, reference: Reference| JudgedScene {
+    let with = |description: SceneDescription, reference: Reference| SceneWithReference {
         scene: Scene::new(&description),
         description,
         reference,
@@ -88,7 +86,7 @@ fn load(workspace: &Workspace, scene: &Path) -> Result<JudgedScene> {
     }
     if !scene.is_file() {
         return Err(Error::Input(format!(
-            "{name}: neither a scene of the collection nor a file (the scenes are in {})",
+            "{name}: neither the name of a scene nor a file (scenes are in {})",
             workspace.root().join("scenes").display()
         )));
     }

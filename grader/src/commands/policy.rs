@@ -1,4 +1,4 @@
-//! The policy of an assignment, as commands need it.
+//! The late policy of an assignment.
 
 use std::path::Path;
 
@@ -7,8 +7,11 @@ use harness::workspace::Workspace;
 use verdict::error::{Error, Result};
 use verdict::rubric::Rubric;
 
-/// The rubric's rules with the dates of a course: those of the file that is named, or else of the `course.yml` beside
-/// the rubric. `None` if the rubric has no rules.
+/// Combines the rules of a rubric with the dates of a course: those of the file `course`, or else of the `course.yml` beside
+/// the rubric. `None` if the rubric has no late policy.
+///
+/// # Errors
+/// If the dates are wrong, or `course` is given for a rubric without a late policy.
 pub(super) fn policy(
     workspace: &Workspace,
     assignment: &str,

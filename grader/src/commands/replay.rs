@@ -1,29 +1,31 @@
 //! `grader replay`.
 
-use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use arty::integrator::Technique;
-use host::protocol::Switches;
 use serde::Serialize;
 
 use harness::build::{Framework, compile};
+use harness::job::JobError;
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
-use judge::reference::Oracle;
-use judge::reference::SIZE;
-use judge::replay::{Place, follow, vertices};
+use judge::reference::{Oracle, SIZE};
+use judge::replay::{follow, load, vertices};
 use present::replay::print;
+use present::streams::unless_unread;
+use present::words::replay_command;
 use verdict::error::{Error, Result};
-use verdict::replay::{Path, Vertex};
+use verdict::output;
+use verdict::replay::{Path, ReplayTarget, Vertex};
+use verdict::rubric::EmissionOnHit;
 
-/// Follow one path of a submission again and show every call that it made. Reports give the command for their findings.
+/// Follow one path of a submission again and show every call that it made. Reports give the command for their findings
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// A render_pt.rs, or a folder with one in it
     submission: PathBuf,
-    /// A scene of scenes/ or scenes/extreme/ by name, or stability-room
+    /// Name of a scene in scenes/ or scenes/extreme/, or stability-room
     #[arg(long)]
     scene: String,
     /// Column and row of the pixel, from the upper left
@@ -35,34 +37,38 @@ pub(super) struct Arguments {
     /// Technique: bsdf, nee or mis
     #[arg(long, default_value_t = Technique::Mis)]
     technique: Technique,
-    /// Largest number of bounces
+    /// Maximum number of bounces: 0 = emission only, 1 = direct light
     #[arg(long, default_value_t = 8)]
     max_bounces: u32,
     /// Seed of the rendering
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Width and height of the picture [default: that of references]
+    /// Width and height of the image [default: those of the references]
     #[arg(long, value_name = "WxH", value_parser = |text: &str| pair(text, 'x'))]
     size: Option<[u32; 2]>,
-    /// Make the scene this many times as large
+    /// Multiply all lengths of the scene by this factor
     #[arg(long, default_value_t = 1.0, value_parser = factor)]
     scale: f64,
-    /// Make its lights this many times as bright
+    /// Multiply the emission of all lights by this factor
     #[arg(long, default_value_t = 1.0, value_parser = factor)]
     emission: f64,
-    /// Lights that are hit emit nothing
-    #[arg(long)]
+    /// off: lights that a path hits emit nothing
+    #[arg(long, value_name = "on|off", default_value = "on", value_parser = emission_on_hit)]
+    emission_on_hit: EmissionOnHit,
+    /// Old name of `--emission-on-hit=off`
+    #[arg(long, hide = true)]
     hits_off: bool,
-    /// Leave out the solution's own path
+    /// Skip the solution's own path
     #[arg(long)]
     student: bool,
-    /// Write everything to this file, as JSON, too
+    /// Also write everything to this file as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
 }
 
+/// The two paths, and the one reason why there may be only one.
 #[derive(Serialize)]
-struct Output<'a> {
+struct Replay<'a> {
     schema: &'a str,
     command: &'a str,
     submission: &'a Path,
@@ -74,89 +80,97 @@ struct Output<'a> {
     left_out: Option<&'a str>,
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
-    let workspace = Workspace::find()?;
-    let emission = arguments.emission as f32;
-    let size = arguments.size.unwrap_or([SIZE.0, SIZE.1]);
-    if size.contains(&0) || size[0] <= arguments.pixel[0] || size[1] <= arguments.pixel[1] {
-        return Err(Error::Input(format!("--pixel: the picture is {} x {} pixels", size[0], size[1])));
-    }
-    let place = Place {
-        scene: arguments.scene.clone(),
-        description: Place::load(&workspace, &arguments.scene, arguments.scale, emission)?,
-        scale: arguments.scale,
-        emission,
-        technique: arguments.technique,
-        max_bounces: arguments.max_bounces,
-        size,
-        seed: arguments.seed,
-        pixel: arguments.pixel,
-        sample: arguments.sample,
-        switches: Switches { emission_on_hit: !arguments.hits_off },
-    };
+pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
+    let target = arguments.target()?;
+    let description = load(workspace, &target)?;
     let submission = intake::read(&arguments.submission)?;
-    let program = compile(&Framework::build(&workspace)?, &submission.source, &Limits::default())?
+    let program = compile(&Framework::build(workspace)?, &submission.source, &Limits::default())?
         .map_err(|failure| Error::Input(format!("the submission does not compile:\n{}", failure.messages)))?;
-    let submission =
-        follow(&program, &place)?.map_err(|fault| Error::Input(format!("the submission: {fault}")))?;
-
-    let (own, left_out) = if arguments.student {
-        (None, Some("the solution's path is left out, as asked for"))
+    let submission = follow(&program, &target, &description).map_err(|error| match error {
+        JobError::Submission(fault) => Error::Input(format!("the submission: {fault}")),
+        JobError::Harness(error) => error,
+    })?;
+    let (solution, left_out) = if arguments.student {
+        (None, Some("the solution's path is skipped (--student)"))
     } else if !workspace.solution_file().is_file() {
-        (None, Some("the solution's path is left out: there is no solution/ here"))
+        (None, Some("the solution's path is skipped: this checkout does not have the solution"))
     } else {
-        let solution = Oracle::required(&workspace)?;
-        let path =
-            follow(&solution, &place)?.map_err(|fault| Error::Harness(format!("the solution: {fault}")))?;
-        (Some(path), None)
+        let program = Oracle::required(workspace)?;
+        let path = follow(&program, &target, &description);
+        (Some(path.map_err(|error| error.of_trusted("the solution"))?), None)
     };
-    let weighted = own.as_ref().map(|path| vertices(path, &place));
-
+    let vertices = solution.as_ref().map(|path| vertices(path, target.technique, &description));
+    let replay = Replay {
+        schema: "arty-replay/2",
+        command: &replay_command(&target, &arguments.submission.to_string_lossy()),
+        submission: &submission,
+        solution: solution.as_ref(),
+        vertices: vertices.as_deref(),
+        left_out,
+    };
+    unless_unread(replay.show())?;
     if let Some(file) = &arguments.json {
-        let command = place.command(&verdict::text::quote(&arguments.submission));
-        let output = Output {
-            schema: "arty-replay/1",
-            command: &command,
-            submission: &submission,
-            solution: own.as_ref(),
-            vertices: weighted.as_deref(),
-            left_out,
-        };
-        arty::image::write_aside(file, |writer| serde_json::to_writer_pretty(writer, &output))?;
+        output::write_json(file, &replay)?;
     }
-    // Nobody may be reading any more (`… | head`).
-    let _ = show(&submission, own.as_ref(), weighted.as_deref(), left_out);
     Ok(ExitCode::SUCCESS)
 }
 
-fn show(
-    submission: &Path,
-    own: Option<&Path>,
-    vertices: Option<&[Vertex]>,
-    left_out: Option<&str>,
-) -> std::io::Result<()> {
-    let mut out = std::io::stdout().lock();
-    print(&mut out, "The submission", submission, None)?;
-    if let Some(path) = own {
-        writeln!(out)?;
-        print(&mut out, "The solution", path, vertices)?;
+impl Arguments {
+    fn target(&self) -> Result<ReplayTarget> {
+        if self.hits_off {
+            return Err(Error::Input("--hits-off is now called --emission-on-hit=off".to_owned()));
+        }
+        let [width, height] = self.size.unwrap_or([SIZE.0, SIZE.1]);
+        if self.pixel[0] >= width || self.pixel[1] >= height {
+            return Err(Error::Input(format!("--pixel: the image has {width} x {height} pixels")));
+        }
+        Ok(ReplayTarget {
+            scene: self.scene.clone(),
+            scale: self.scale,
+            emission: self.emission as f32,
+            technique: self.technique,
+            max_bounces: self.max_bounces,
+            emission_on_hit: self.emission_on_hit,
+            size: [width, height],
+            seed: self.seed,
+            pixel: self.pixel,
+            sample: self.sample,
+        })
     }
-    left_out.map_or(Ok(()), |why| writeln!(out, "{why}"))
 }
 
-/// Two whole numbers.
-fn pair(text: &str, between: char) -> std::result::Result<[u32; 2], String> {
+impl Replay<'_> {
+    /// Prints both paths as tables.
+    fn show(&self) -> std::io::Result<()> {
+        use std::io::Write;
+        let mut out = std::io::stdout().lock();
+        print(&mut out, "The submission", self.submission, None)?;
+        if let Some(path) = self.solution {
+            writeln!(out)?;
+            print(&mut out, "The solution", path, self.vertices)?;
+        }
+        self.left_out.map_or(Ok(()), |why| writeln!(out, "{why}"))
+    }
+}
+
+/// Reads two whole numbers.
+fn pair(text: &str, separator: char) -> std::result::Result<[u32; 2], String> {
     let parts =
-        text.split_once(between).and_then(|(a, b)| Some([a.trim().parse().ok()?, b.trim().parse().ok()?]));
-    parts.ok_or_else(|| format!("two whole numbers with `{between}` between them are wanted"))
+        text.split_once(separator).and_then(|(a, b)| Some([a.trim().parse().ok()?, b.trim().parse().ok()?]));
+    parts.ok_or_else(|| format!("expected two whole numbers separated by `{separator}`"))
 }
 
-/// A factor that single precision holds.
+/// Reads a positive factor that single precision holds.
 fn factor(text: &str) -> std::result::Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
-    if (value as f32).is_normal() && value > 0.0 {
-        Ok(value)
-    } else {
-        Err("not a positive number".to_owned())
+    let value: Option<f64> = text.parse().ok();
+    let is_positive = |value: &f64| (*value as f32).is_normal() && *value > 0.0;
+    value.filter(is_positive).ok_or_else(|| "not a positive number".to_owned())
+}
+
+fn emission_on_hit(text: &str) -> std::result::Result<EmissionOnHit, String> {
+    match text {
+        "on" => Ok(EmissionOnHit::On),
+        "off" => Ok(EmissionOnHit::Off),
+        _ => Err("expected on or off".to_owned()),
     }
 }

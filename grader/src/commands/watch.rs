@@ -1,4 +1,4 @@
-//! `grader grade --watch`: grades again on every save.
+//! `grader grade --watch`.
 
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -12,18 +12,20 @@ use notify_debouncer_mini::notify::{self, RecursiveMode};
 
 use harness::workspace::Workspace;
 use judge::grade::{Grader, Options};
+use present::words::{explanation, number_of_points};
+use verdict::check::{CheckResult, Verdict};
 use verdict::error::{Error, Result};
-use verdict::report::{CheckResult, Report, Verdict};
+use verdict::report::Report;
 use verdict::submission::Submission;
 
-/// How long a file has to be left alone after a save.
+/// Time without changes after which a save counts as complete.
 const QUIET: Duration = Duration::from_millis(150);
 
-/// Lines of a compiler's messages that are shown: the first error, usually.
+/// Maximum number of lines of the compiler's messages: usually those of the first error.
 const MESSAGE_LINES: usize = 24;
 
-/// Grades a submission now and whenever it changes, until someone interrupts. What is wrong with the submission, or missing
-/// for a moment, is shown; it never ends this.
+/// Grades a submission now and on every change until interrupted. Faults of the submission, and a file that is missing
+/// for a moment, are shown and end nothing.
 ///
 /// # Errors
 /// If the folder of the submission cannot be watched.
@@ -55,12 +57,12 @@ pub(super) fn watch(workspace: &Workspace, path: &Path, options: &Options, file:
             }
         }
         if !wait_for(&changes) {
-            return Err(Error::Harness("the system no longer says what changes".to_owned()));
+            return Err(Error::Harness(format!("{}: can no longer be watched", path.display())));
         }
     }
 }
 
-/// Waits for a change and takes note of all that have come meanwhile; false if there will be no more.
+/// Waits for a change, and drops others that have arrived meanwhile; false if there will be no more.
 fn wait_for<T>(changes: &Receiver<T>) -> bool {
     let more = changes.recv().is_ok();
     while changes.try_recv().is_ok() {}
@@ -71,7 +73,7 @@ fn folder_of(path: &Path) -> PathBuf {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_owned()
 }
 
-/// Grades and says what came out of it. The table is drawn again after each check.
+/// Grades, and returns what to show. The table is drawn again after each check.
 fn grade_once(grader: &Grader, submission: &Submission, file: &Path) -> String {
     let mut checks: Vec<CheckResult> = Vec::new();
     show("compiling …", &submission.path);
@@ -81,61 +83,66 @@ fn grade_once(grader: &Grader, submission: &Submission, file: &Path) -> String {
             show(&format!("{}\nchecking …", table_of(&checks)), &submission.path);
         }
     });
-    match graded.and_then(|report| report.save(file).map(|()| report)) {
-        Ok(report) => finished(&report),
-        Err(error) => format!("error: {error}"),
+    let report = match graded {
+        Ok(report) => report,
+        Err(error) => return format!("error: {error}"),
+    };
+    match report.save(file) {
+        Ok(()) => finished(&report),
+        Err(error) => format!("{}\nerror: {error}", finished(&report)),
     }
 }
 
-/// Draws the screen anew on a terminal; elsewhere one thing follows the other.
+/// Clears the screen and shows a text; in a pipe, texts follow each other.
 fn show(text: &str, path: &Path) {
     let mut out = std::io::stdout().lock();
     let clear = if out.is_terminal() { "\x1b[2J\x1b[3J\x1b[H" } else { "" };
-    // Nobody may be reading any more.
+    // The reader may be gone.
     let _ = writeln!(out, "{clear}{} (Ctrl-C ends)\n{text}", path.display());
     let _ = out.flush();
 }
 
-/// What is shown at the end of a grade.
+/// The text at the end of a grade.
 fn finished(report: &Report) -> String {
     if let Some(failure) = &report.submission.build_failure {
         let lines: Vec<&str> = failure.messages.lines().collect();
         let more = lines.len().saturating_sub(MESSAGE_LINES);
         let mut text = format!("it does not compile:\n\n{}", lines[..lines.len() - more].join("\n"));
         if more > 0 {
-            text += &format!("\n… and {more} more lines: save again when these are mended");
+            text += &format!("\n… and {more} more lines: save again after fixing these");
         }
         return text;
     }
     let points = &report.points;
     format!(
-        "{}\n{} of {} automatic points, {:.1} s",
+        "{}\n{} of {}, graded automatically ({:.1} s)",
         table_of(&report.checks),
         points.earned,
-        points.automatic_max,
+        number_of_points(points.automatic_max),
         report.cost.total
     )
 }
 
-/// One row a task: how many checks passed, and the first that did not.
+/// One row per task: how many checks passed, and the first that did not.
 fn table_of(checks: &[CheckResult]) -> Table {
     let mut table = Table::new();
     table.load_style(UTF8_HORIZONTAL_ONLY).set_content_arrangement(ContentArrangement::Dynamic).set_header([
         "task",
         "passed",
-        "what is wrong first",
+        "first failure",
     ]);
     let mut tasks: Vec<&str> = checks.iter().map(|check| check.task.as_str()).collect();
-    // They come as they end.
+    // Checks arrive in the order in which they end.
     tasks.sort_unstable();
     tasks.dedup();
     for task in tasks {
-        let run = |check: &&CheckResult| check.task == task && check.verdict != Verdict::LeftOut;
+        let run =
+            |check: &&CheckResult| check.task == task && !matches!(check.verdict, Verdict::Skipped { .. });
         let of_task: Vec<&CheckResult> = checks.iter().filter(run).collect();
         let wrong: Vec<&&CheckResult> = of_task.iter().filter(|check| check.is_lacking()).collect();
         let color = if wrong.is_empty() { Color::Green } else { Color::Red };
         let first =
-            wrong.first().map_or(String::new(), |check| format!("{}: {}", check.id, check.explanation));
+            wrong.first().map_or(String::new(), |check| format!("{}: {}", check.id, explanation(check)));
         let passed = format!("{} of {}", of_task.len() - wrong.len(), of_task.len());
         table.add_row([
             Cell::new(task),

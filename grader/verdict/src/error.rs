@@ -1,23 +1,23 @@
-//! What can go wrong that is not the submission's doing.
+//! Errors of the grader: everything that can go wrong and is not a fault of the submission.
 
 use std::path::Path;
 use std::process::ExitCode;
 
-/// A reason to stop, with whose matter it is. Faults of a submission are no errors: they are findings in its report.
+/// Why a command stops, and who can fix it. Faults of a submission are not errors: they are findings in its report.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// The command line, a scene, a rubric, a reference: something that the one who runs the grader can mend.
+    /// The command line, a scene, a rubric or a reference is wrong: whoever runs the grader can fix it.
     #[error("{0}")]
     Input(String),
-    /// The grader itself or the machine.
+    /// The grader itself or the machine failed.
     #[error("{0}")]
     Harness(String),
-    /// A result that cannot be written: a full disk, a read-only folder.
+    /// A result cannot be written: the disk is full, or a folder is read-only.
     #[error("{0}")]
     Output(String),
 }
 
-/// A result whose failure is not the submission's doing.
+/// A result whose error is not a fault of the submission.
 pub type Result<T> = std::result::Result<T, Error>;
 
 impl Error {
@@ -26,7 +26,12 @@ impl Error {
         Self::Input(format!("{}: {message}", path.display()))
     }
 
-    /// The exit status that tells scripts which of the two it is.
+    /// An error about a file that cannot be written.
+    pub fn output(path: &Path, error: impl std::fmt::Display) -> Self {
+        Self::Output(format!("{} cannot be written: {error}", path.display()))
+    }
+
+    /// Exit status of the program: 2 for wrong input, 3 for everything else.
     pub fn exit_code(&self) -> ExitCode {
         match self {
             Self::Input(_) => ExitCode::from(2),

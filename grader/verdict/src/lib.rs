@@ -9,6 +9,7 @@ pub mod convergence;
 pub mod edition;
 pub mod error;
 pub mod number;
+pub mod output;
 pub mod pictures;
 pub mod replay;
 pub mod report;

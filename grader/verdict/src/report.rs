@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::check::{CheckId, CheckKind, CheckResult, Numerics, Verdict, Visibility, WhyNot};
 use crate::convergence::Convergence;
 use crate::error::{Error, Result};
+use crate::output;
 use crate::pictures::ImageError;
 use crate::sandbox::{Layers, Level};
 use crate::submission::{BuildFailure, Explanation, IntakeFinding, SourceFinding};
@@ -334,7 +335,6 @@ impl Report {
     /// # Errors
     /// If the file cannot be written.
     pub fn save(&self, path: &Path) -> Result<()> {
-        arty::image::write_aside(path, |writer| serde_json::to_writer_pretty(writer, self))
-            .map_err(|error| Error::Output(error.to_string()))
+        output::write_json(path, self)
     }
 }

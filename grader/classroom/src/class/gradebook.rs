@@ -12,6 +12,7 @@ use crate::marks::Marks;
 use crate::policy::{Lateness, Policy, Receipt, Standing};
 use crate::table::{Table, no_formula};
 use verdict::error::Result;
+use verdict::output;
 use verdict::report::Provenance;
 use verdict::submission::IntakeFinding;
 
@@ -265,5 +266,5 @@ pub fn save_class(
 ) -> Result<()> {
     let (assignment, automatic_max) = assignment;
     let file = ClassFile { schema: SCHEMA, assignment, automatic_max, provenance, rows, similar };
-    Ok(arty::image::write_aside(path, |writer| serde_json::to_writer_pretty(writer, &file))?)
+    output::write_json(path, &file)
 }

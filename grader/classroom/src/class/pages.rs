@@ -1,7 +1,5 @@
 //! The pages of one submission of a class: all that takes time is done once, pages are made again when a mark has changed.
 
-use std::path::Path;
-
 use super::record::{Record, ResultDir};
 use crate::marks::Marks;
 use harness::build::SubmissionProgram;
@@ -12,7 +10,8 @@ use judge::pictures::pictures;
 use judge::reference::Oracle;
 use present::page::{Readers, remove_pages, write_pages};
 use present::pictures::{load, save, thumbnail};
-use verdict::error::{Error, Result};
+use verdict::error::Result;
+use verdict::output;
 use verdict::report::Report;
 
 /// Scenes of which pages have pictures: fewer than when one submission is graded, since those of a class take megabytes each.
@@ -36,10 +35,8 @@ pub(super) fn complete(
     }
     save(&shown, &result_dir.pictures())?;
     match thumbnail(&shown) {
-        Some(png) => Ok(arty::image::write_aside(&result_dir.thumbnail(), |file| {
-            std::io::Write::write_all(file, &png)
-        })?),
-        None => remove(&result_dir.thumbnail()),
+        Some(png) => output::write_bytes(&result_dir.thumbnail(), png),
+        None => output::remove(&result_dir.thumbnail()),
     }
 }
 
@@ -60,21 +57,12 @@ pub(super) fn make(result_dir: &ResultDir, record: &Record, marks: &Marks, path:
     let shown = load(&result_dir.pictures()).unwrap_or_default();
     write_pages(&report, &shown, &result_dir.report(), Readers::Staff(Some(path)))?;
     // Last, so that pages of which one is missing are made again.
-    Ok(arty::image::write_aside(&result_dir.made_of(), |file| {
-        std::io::Write::write_all(file, made_of.as_bytes())
-    })?)
+    output::write_bytes(&result_dir.made_of(), made_of)
 }
 
 /// Removes what an earlier submission of the same student has left.
 pub(super) fn clear(result_dir: &ResultDir) -> Result<()> {
-    remove(&result_dir.made_of())?;
-    remove(&result_dir.thumbnail())?;
+    output::remove(&result_dir.made_of())?;
+    output::remove(&result_dir.thumbnail())?;
     remove_pages(&result_dir.report())
-}
-
-fn remove(path: &Path) -> Result<()> {
-    match std::fs::remove_file(path) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(Error::file(path, error)),
-        _ => Ok(()),
-    }
 }

@@ -1,20 +1,21 @@
-//! What a person sees while a class is graded.
+//! Progress of grading a class, on standard error.
 
 use std::io::IsTerminal;
 use std::time::Duration;
 
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
+use present::streams::note;
 use verdict::check::{CheckResult, Verdict};
 
-/// A live table on a terminal, a line for each submission elsewhere.
+/// A live table on a terminal, one line per submission elsewhere.
 pub(super) struct Progress {
     all: Option<MultiProgress>,
     total: ProgressBar,
     count: usize,
 }
 
-/// The line of one worker.
+/// The line of one worker, hidden where there is no terminal.
 pub(super) struct Line {
     bar: Option<ProgressBar>,
     passed: usize,
@@ -34,7 +35,7 @@ impl Progress {
         Self { all, total, count }
     }
 
-    /// A line for a worker.
+    /// Adds a line for a worker.
     pub(super) fn line(&self) -> Line {
         let bar = self.all.as_ref().map(|all| {
             let bar = all.add(ProgressBar::new_spinner());
@@ -44,12 +45,12 @@ impl Progress {
         Line { bar, passed: 0, done: 0 }
     }
 
-    /// One submission more has ended.
+    /// Counts one more submission as graded and prints its row.
     pub(super) fn ended(&self, number: usize, text: &str) {
         match &self.all {
-            // A terminal that is gone is no reason to stop.
+            // A terminal that is gone does not end the run.
             Some(all) => drop(all.println(text)),
-            None => eprintln!("{number}/{} {text}", self.count),
+            None => note(format_args!("{number}/{} {text}", self.count)),
         }
         self.total.inc(1);
     }
@@ -60,7 +61,7 @@ impl Progress {
 }
 
 impl Line {
-    /// A submission begins.
+    /// Shows that a submission is being compiled.
     pub(super) fn begin(&mut self, student: &str) {
         (self.passed, self.done) = (0, 0);
         if let Some(bar) = &self.bar {
@@ -69,7 +70,7 @@ impl Line {
         }
     }
 
-    /// A check has ended.
+    /// Shows that a check has ended.
     pub(super) fn check(&mut self, check: &CheckResult) {
         self.done += 1;
         self.passed += usize::from(check.verdict == Verdict::Pass);

@@ -11,6 +11,7 @@ use present::page::{pages_beside, pictures_beside};
 use present::words;
 use verdict::check::{CheckKind, CheckResult, Evidence, Reason, Verdict};
 use verdict::error::{Error, Result};
+use verdict::output;
 use verdict::report::Report;
 use verdict::submission::{Explanation, IntakeFinding};
 
@@ -196,7 +197,7 @@ impl ResultDir {
     /// Keeps report and record. The record comes last and names the report: whatever is interrupted, what
     /// [`Self::load`] gives belongs together.
     pub(super) fn save(&self, record: &mut Record, report: Option<&Report>) -> Result<()> {
-        std::fs::create_dir_all(&self.0).map_err(|error| Error::file(&self.0, error))?;
+        output::create_folder(&self.0)?;
         self.remove_leftovers();
         match report {
             Some(report) => {
@@ -207,15 +208,10 @@ impl ResultDir {
             }
             None => {
                 record.report = String::new();
-                match std::fs::remove_file(self.report()) {
-                    Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-                        return Err(Error::file(&self.report(), error));
-                    }
-                    _ => {}
-                }
+                output::remove(&self.report())?;
             }
         }
-        Ok(arty::image::write_aside(&self.record(), |file| serde_json::to_writer_pretty(file, record))?)
+        output::write_json(&self.record(), record)
     }
 
     /// Files that a killed grader had begun.

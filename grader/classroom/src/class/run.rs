@@ -23,9 +23,11 @@ use harness::workspace::Workspace;
 use intake::{self, Intake};
 use judge::grade::{Grader, Options};
 use judge::reference::Oracle;
+use present::streams::note;
 use verdict::error::{Error, Result};
 use verdict::report::Provenance;
 use verdict::submission::IntakeFinding;
+use verdict::text::harmless;
 
 /// How a class is graded.
 #[derive(Clone, Debug)]
@@ -232,7 +234,7 @@ impl Shared<'_> {
             _ => pages::clear(result_dir),
         };
         if let Err(error) = made {
-            eprintln!("warning: the page of {}: {error}", verdict::text::harmless(&member.key));
+            note(format_args!("warning: the page of {}: {error}", harmless(&member.key)));
         }
     }
 
@@ -271,8 +273,8 @@ impl Shared<'_> {
             match pages::complete(self.workspace, &self.grader, program.as_ref(), report, result_dir) {
                 Ok(()) => result_dir.save(&mut record, Some(report))?,
                 Err(error) => {
-                    let whose = verdict::text::harmless(&member.key);
-                    eprintln!("warning: the report of {whose} is not complete: {error}");
+                    let whose = harmless(&member.key);
+                    note(format_args!("warning: the report of {whose} is incomplete: {error}"));
                 }
             }
         }

@@ -66,7 +66,7 @@ pub(super) fn build(workspace: &Workspace, compiler: &Compiler, key: &str) -> Re
         compiler,
         &[&ARGUMENTS[..], &["--message-format", "json-render-diagnostics"]].concat(),
     )?;
-    std::fs::write(&stamp, key).map_err(|error| Error::file(&stamp, error))?;
+    std::fs::write(&stamp, key).map_err(|error| Error::output(&stamp, error))?;
     let artifacts: Vec<Message> = messages
         .lines()
         .filter_map(|line| serde_json::from_str(line).ok())

@@ -5,7 +5,6 @@
 //! the numbers of those that did not pass.
 
 use std::collections::BTreeMap;
-use std::io::Write;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -110,7 +109,7 @@ impl Signatures {
             "{{\"made_by\":{made_by},\n\"checks\":{checks},\n\"variants\":[\n{}\n]}}\n",
             lines.join(",\n")
         );
-        Ok(arty::image::write_aside(path, |writer| writer.write_all(text.as_bytes()))?)
+        verdict::output::write_bytes(path, text)
     }
 }
 

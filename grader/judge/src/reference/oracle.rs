@@ -13,6 +13,7 @@ use harness::host_process::HostProcess;
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
 use verdict::error::{Error, Result};
+use verdict::output;
 use verdict::submission::Submission;
 
 /// The solution of this checkout. It is compiled only once it is needed, and not again while it is the same.
@@ -125,8 +126,9 @@ impl Oracle {
 
     /// Keeps the program, in place of earlier ones.
     fn keep(&self, file: &Path, program: &SubmissionProgram) -> Result<()> {
-        let trouble = |error| Error::file(&self.folder, error);
-        let executable = std::fs::read(&program.executable).map_err(trouble)?;
+        let trouble = |error| Error::output(&self.folder, error);
+        let executable =
+            std::fs::read(&program.executable).map_err(|error| Error::file(&program.executable, error))?;
         for entry in std::fs::read_dir(&self.folder).into_iter().flatten() {
             let path = entry.map_err(trouble)?.path();
             if path.extension() == file.extension() {
@@ -138,11 +140,8 @@ impl Oracle {
 
     /// Writes something down for [`read`].
     fn write(&self, file: &Path, bytes: &[u8]) -> Result<()> {
-        std::fs::create_dir_all(&self.folder).map_err(|error| Error::file(file, error))?;
-        Ok(arty::image::write_aside(file, |writer| {
-            std::io::Write::write_all(writer, blake3::hash(bytes).as_bytes())?;
-            std::io::Write::write_all(writer, bytes)
-        })?)
+        output::create_folder(&self.folder)?;
+        output::write_bytes(file, [blake3::hash(bytes).as_bytes(), bytes].concat())
     }
 }
 

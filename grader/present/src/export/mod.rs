@@ -11,13 +11,15 @@ mod junit;
 mod markdown;
 mod surroundings;
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use verdict::edition::for_student;
 use verdict::error::{Error, Result};
+use verdict::output;
 use verdict::report::Report;
+
+use crate::streams::{note, print};
 
 pub use surroundings::{Received, Surroundings};
 
@@ -114,24 +116,10 @@ impl Export {
     /// If the file cannot be written.
     pub fn write(&self, report: &Report, surroundings: &Surroundings, folder: &Path) -> Result<()> {
         let text = self.format.render(report, surroundings)?;
-        let Some(file) = self.target(folder) else {
-            let mut out = std::io::stdout().lock();
-            return unless_unread(out.write_all(text.as_bytes()).and_then(|()| out.flush()));
-        };
-        arty::image::write_aside(&file, |writer| writer.write_all(text.as_bytes()))
-            .map_err(|error| Error::Output(error.to_string()))?;
-        let _ = writeln!(std::io::stderr(), "written: {}", file.display());
+        let Some(file) = self.target(folder) else { return print(&text) };
+        output::write_bytes(&file, &text)?;
+        note(format_args!("written: {}", file.display()));
         Ok(())
-    }
-}
-
-/// A reader that is gone (`… | head`) is no error; a full disk is.
-fn unless_unread(result: std::io::Result<()>) -> Result<()> {
-    match result {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(Error::Output(format!("standard output: {error}")))
-        }
-        _ => Ok(()),
     }
 }
 
@@ -147,12 +135,6 @@ fn shortened(text: &str, characters: usize) -> String {
 mod tests {
     use super::*;
     use verdict::sample::{STAFF_ONLY, with_staff_only_checks};
-
-    #[test]
-    fn only_a_reader_that_is_gone_is_no_error() {
-        assert!(unless_unread(Err(std::io::ErrorKind::BrokenPipe.into())).is_ok());
-        assert!(matches!(unless_unread(Err(std::io::ErrorKind::StorageFull.into())), Err(Error::Output(_))));
-    }
 
     #[test]
     fn no_format_names_what_only_staff_may_see() {

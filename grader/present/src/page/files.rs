@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use super::page;
 use verdict::edition::{Edition, for_student};
-use verdict::error::{Error, Result};
+use verdict::error::Result;
+use verdict::output;
 use verdict::pictures::Picture;
 use verdict::report::Report;
 
@@ -30,18 +31,13 @@ pub fn write_pages(report: &Report, pictures: &[Picture], file: &Path, readers: 
     let (student, edition) = for_student(report, path);
     let [for_students, for_tutors] = pages_beside(file);
     if readers == Readers::Student {
-        return write(&for_students, &small_enough(&student, pictures, edition));
+        return output::write_bytes(&for_students, small_enough(&student, pictures, edition));
     }
     for (target, report, edition) in [(for_students, &student, edition), (for_tutors, report, Edition::Tutor)]
     {
-        write(&target, &small_enough(report, pictures, edition))?;
+        output::write_bytes(&target, small_enough(report, pictures, edition))?;
     }
     Ok(())
-}
-
-fn write(path: &Path, text: &str) -> Result<()> {
-    arty::image::write_aside(path, |writer| std::io::Write::write_all(writer, text.as_bytes()))
-        .map_err(|error| Error::Output(error.to_string()))
 }
 
 /// The most bytes of a page: it is sent by mail, and kept for everybody.
@@ -60,15 +56,7 @@ fn small_enough(report: &Report, pictures: &[Picture], edition: Edition) -> Stri
 /// If one is there and cannot be removed.
 pub fn remove_pages(file: &Path) -> Result<()> {
     let [student, tutor] = pages_beside(file);
-    for path in [student, tutor, pictures_beside(file)] {
-        match std::fs::remove_file(&path) {
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-                return Err(Error::file(&path, error));
-            }
-            _ => {}
-        }
-    }
-    Ok(())
+    [student, tutor, pictures_beside(file)].iter().try_for_each(|path| output::remove(path))
 }
 
 /// The student's edition, `report.html`, and the tutor's, `report-tutor.html`, beside a `report.json`.

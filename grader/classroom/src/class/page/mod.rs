@@ -21,6 +21,7 @@ use super::record::ResultDir;
 use digest::Digests;
 use present::page::document;
 use verdict::error::Result;
+use verdict::output;
 use verdict::rubric::Rubric;
 
 const SCRIPT: &str = include_str!("class.js");
@@ -46,7 +47,7 @@ impl ClassPage<'_> {
     /// If it cannot be written.
     pub fn save(&self, path: &Path) -> Result<()> {
         let digests = Digests::read(self.out, self.rows);
-        Ok(arty::image::write_aside(path, |file| self.write(&digests, file))?)
+        output::write(path, |file| self.write(&digests, file))
     }
 
     fn write(&self, digests: &Digests, file: &mut BufWriter<&std::fs::File>) -> std::io::Result<()> {
