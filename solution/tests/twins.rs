@@ -7,13 +7,12 @@ use std::fs;
 use std::path::Path;
 
 /// The only code in the starter's blocks: without it, the starter would not compile, or not without warnings.
-const STARTER_CODE: [&str; 7] = [
+const STARTER_CODE: [&str; 6] = [
     "last_bounce = Some(LastBounce {});",
     "let _ = (scene, hit, bsdf, sampler); // Delete this line once you use them.",
     "Rgb::BLACK",
     "let _ = (scene, hit, emission, last_bounce); // Delete this line once you use them.",
     "1.0",
-    "#[derive(Clone, Copy)]",
     "struct LastBounce {}",
 ];
 

@@ -1,4 +1,5 @@
-//! The functions of the Embree 4 C API for single rays, loaded from a library at run time: see the manual pages of `rtcNewScene`, `rtcIntersect1`, `rtcOccluded1`.
+//! The functions of the Embree 4 C API for single rays, loaded from a library at run time: see
+//! the manual pages of `rtcNewScene`, `rtcIntersect1`, `rtcOccluded1`.
 
 use std::ffi::{c_char, c_int, c_uint, c_void};
 use std::path::Path;

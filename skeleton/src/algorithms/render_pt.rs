@@ -104,7 +104,7 @@ impl PathTracer {
 }
 
 /// What `emission_weight` has to know about the bounce before a hit.
-// TASK 5.1b, 5.2b: which fields does it need? If you want functions of your own, they can go here, too.
 #[derive(Clone, Copy)]
+// TASK 5.1b, 5.2b: which fields does it need? If you want functions of your own, they can go here, too.
 struct LastBounce {}
 // END 5.1b, 5.2b

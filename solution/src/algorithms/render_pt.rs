@@ -118,8 +118,8 @@ impl PathTracer {
         // Seen by the camera or by way of a delta bounce, it is found by no light sample.
         let Some(LastBounce { point, p_brdf }) = last_bounce else { return 1.0 };
         match self.settings.technique {
-            Technique::Bsdf => 1.0,
             Technique::Nee => 0.0,
+            Technique::Bsdf => 1.0,
             Technique::Mis => {
                 let (_, distance) = direction_and_distance(point, hit.point);
                 let p_ne = p_light(scene) * emission.pdf_area * distance * distance / emission.cos_light;
@@ -131,8 +131,8 @@ impl PathTracer {
 }
 
 /// What `emission_weight` has to know about the bounce before a hit.
-// TASK 5.1b, 5.2b: which fields does it need? If you want functions of your own, they can go here, too.
 #[derive(Clone, Copy)]
+// TASK 5.1b, 5.2b: which fields does it need? If you want functions of your own, they can go here, too.
 struct LastBounce {
     /// The hit point where the path bounced, in world space.
     point: Vec3,

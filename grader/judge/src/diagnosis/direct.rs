@@ -116,13 +116,12 @@ impl Untouched {
 }
 
 /// The code in the blocks of the starting file.
-const GIVEN: [&str; 7] = [
+const GIVEN: [&str; 6] = [
     "last_bounce = Some(LastBounce {});",
     "let _ = (scene, hit, bsdf, sampler); // Delete this line once you use them.",
     "Rgb::BLACK",
     "let _ = (scene, hit, emission, last_bounce); // Delete this line once you use them.",
     "1.0",
-    "#[derive(Clone, Copy)]",
     "struct LastBounce {}",
 ];
 

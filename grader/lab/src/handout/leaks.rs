@@ -16,7 +16,7 @@ const PHRASES: [&str; 7] = [
     ") else { return Rgb::BLACK }; let (",
     ") { return Rgb::BLACK; }",
     "; let (wi, distance) = direction_and_distance(hit.point,",
-    "Option<(Vec3, f32)>",
+    ".technique == Technique::Bsdf",
     "scene.lights().len() as f32",
     "); let f = bsdf.eval(wi)",
 ];
