@@ -110,7 +110,8 @@ impl Signatures {
             "{{\"made_by\":{made_by},\n\"checks\":{checks},\n\"variants\":[\n{}\n]}}\n",
             lines.join(",\n")
         );
-        Ok(arty::image::write_aside(path, |writer| writer.write_all(text.as_bytes()))?)
+        arty::image::write_aside(path, |writer| writer.write_all(text.as_bytes()))
+            .map_err(|error| Error::Output(error.to_string()))
     }
 }
 
