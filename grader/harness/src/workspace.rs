@@ -69,9 +69,9 @@ impl Workspace {
         self.root.join("scenes/extreme").join(format!("{scene}.yml"))
     }
 
-    /// The folder with what was measured of the framework's limits.
-    pub fn stability(&self) -> PathBuf {
-        self.root.join("grader/stability")
+    /// The folder of measurements of the renderer's numerical range.
+    pub fn limits(&self) -> PathBuf {
+        self.root.join("grader/lab/limits")
     }
 
     /// The folder of an assignment.
