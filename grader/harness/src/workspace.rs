@@ -85,9 +85,9 @@ impl Workspace {
         self.root.join("scenes/extreme").join(format!("{scene}.yml"))
     }
 
-    /// Folder of the measured numerical range of the renderer.
-    pub fn stability(&self) -> PathBuf {
-        self.root.join("grader/stability")
+    /// The folder of measurements of the renderer's numerical range.
+    pub fn limits(&self) -> PathBuf {
+        self.root.join("grader/lab/limits")
     }
 
     /// Folder of an assignment. An absolute `name` is used as it is.

@@ -1,6 +1,6 @@
-//! Makes a class to measure with: submissions that are right, wrong, hostile and odd, in a folder for each.
+//! Makes a class to measure with: correct, wrong and hostile submissions, each in a folder of its own.
 //!
-//! `cargo run --release -p grader --example make_class -- --out target/class --count 100`, then
+//! `cargo run --release -p lab --example make_class -- --out target/class --count 100`, then
 //! `time cargo grader class target/class --out target/class-report`.
 
 use std::path::PathBuf;
@@ -9,19 +9,20 @@ use std::process::ExitCode;
 use clap::Parser;
 use harness::workspace::Workspace;
 use lab::mutants::{Kind, variants};
+use lab::output::{create_folder, write_text};
 use verdict::error::{Error, Result};
 use verdict::rubric::Rubric;
 
-/// Make a class of submissions from the committed variants of the solution.
+/// Make a class of submissions from the committed variants of the solution
 #[derive(Parser)]
 struct Arguments {
-    /// The folder of the class; it is made
+    /// Folder of the class; it is created
     #[arg(long)]
     out: PathBuf,
-    /// How many submissions
+    /// Number of submissions
     #[arg(long, default_value_t = 100)]
     count: usize,
-    /// The assignment that the variants are of
+    /// Assignment of the variants
     #[arg(long, default_value = "05-nee-mis")]
     assignment: String,
 }
@@ -44,9 +45,9 @@ fn make(arguments: &Arguments) -> Result<()> {
         |kind| all.iter().filter(move |variant| variant.kind == kind).map(|variant| variant.source.clone());
     let (right, wrong): (Vec<String>, Vec<String>) =
         (of_kind(Kind::Right).collect(), of_kind(Kind::Wrong).collect());
-    let odd = odd();
+    let hostile = hostile();
     for index in 0..arguments.count {
-        // Of ten, four are right, four wrong, one is the starting file or does not compile, one is hostile.
+        // Of ten, four are correct, four wrong, one is the starting file or does not compile, one is hostile.
         let turn = index / 10;
         let source = match index % 10 {
             0..=3 => right[(4 * turn + index % 10) % right.len()].clone(),
@@ -54,19 +55,19 @@ fn make(arguments: &Arguments) -> Result<()> {
             8 if turn % 2 == 0 => std::fs::read_to_string(workspace.student_file())
                 .map_err(|error| Error::file(&workspace.student_file(), error))?,
             8 => "fn main( {".to_owned(),
-            _ => odd[turn % odd.len()].clone(),
+            _ => hostile[turn % hostile.len()].clone(),
         };
         let folder = arguments.out.join(format!("student{index:03}"));
-        std::fs::create_dir_all(&folder).map_err(|error| Error::file(&folder, error))?;
+        create_folder(&folder)?;
         let file = folder.join("render_pt.rs");
-        std::fs::write(&file, format!("// {index}\n{source}")).map_err(|error| Error::file(&file, error))?;
+        write_text(&file, &format!("// {index}\n{source}"))?;
     }
     println!("{}: {} submissions", arguments.out.display(), arguments.count);
     Ok(())
 }
 
-/// Submissions that hang, crash, eat memory or end the process.
-fn odd() -> Vec<String> {
+/// Submissions that hang, panic, end the process or overflow the stack.
+fn hostile() -> Vec<String> {
     ["loop {}", "panic!()", "std::process::exit(0)", "std::process::abort()", "fn f(n: u64) -> u64 { if n == 0 { 0 } else { f(n + 1) + std::hint::black_box(n) } } Rgb::gray(f(1) as f32)"]
         .iter()
         .map(|what| {

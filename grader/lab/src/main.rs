@@ -1,4 +1,4 @@
-//! The laboratory as a program: `cargo lab`.
+//! The command line of the laboratory: `cargo lab`.
 
 fn main() -> std::process::ExitCode {
     lab::commands::run()

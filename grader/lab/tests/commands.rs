@@ -1,4 +1,4 @@
-//! The commands of the laboratory as staff call them.
+//! The command line of the laboratory.
 
 use std::path::Path;
 use std::process::{Command, Output};

@@ -1,13 +1,16 @@
-//! The causes that are named: for the committed observations of variants, with signatures of other grades. Nothing is
-//! graded here; `cargo lab signatures` makes the files.
+//! Diagnosis of the committed observations of variants, with signatures from other grades. Most tests grade nothing:
+//! `cargo lab signatures` makes the files.
 
 use std::collections::BTreeSet;
 
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
+use judge::checks::Quantity;
 use judge::diagnosis::{Catalogue, Confusion, Number, Seen, Signatures, State, UNKNOWN, Vector};
 use judge::grade::{Grader, Options};
 use lab::mutants::{Kind, Variant, variants};
+use verdict::check::CheckId;
+use verdict::report::Cause;
 use verdict::rubric::Rubric;
 use verdict::submission::Submission;
 
@@ -27,7 +30,7 @@ fn catalogue() -> Catalogue {
     Catalogue::load(&workspace().assignment("05-nee-mis")).expect("causes and signatures fit")
 }
 
-/// Observations that are no signatures.
+/// Observations that are not signatures.
 fn cases() -> Signatures {
     Signatures::load(&workspace().variants().join("confusion.json")).expect("it is there")
 }
@@ -71,7 +74,7 @@ fn the_right_cause_is_named_first_nine_times_in_ten_and_among_three_nearly_alway
 #[test]
 fn a_grade_that_stops_at_the_first_failures_still_names_the_cause_most_often() {
     let rubric = rubric();
-    let order: Vec<(String, String)> =
+    let order: Vec<(String, CheckId)> =
         rubric.checks().map(|(task, spec)| (task.id.clone(), spec.id())).collect();
     let [wrong, _, named] = confusion(|vector| vector.stopped_after(&order, 2)).wrong();
     assert!(named as f64 >= 0.9 * wrong as f64, "{named} of {wrong}");
@@ -80,9 +83,9 @@ fn a_grade_that_stops_at_the_first_failures_still_names_the_cause_most_often() {
 #[test]
 fn observations_that_fit_nothing_are_unknown() {
     // Every check is wrong, in turns too bright and too dark.
-    let seen = |(index, check): (usize, String)| {
+    let seen = |(index, check): (usize, CheckId)| {
         let mean = if index % 2 == 0 { 1.3f64 } else { 0.6 };
-        let numbers = [("mean".to_owned(), Number(mean.ln(), 0.01))].into();
+        let numbers = [(Quantity::Mean, Number(mean.ln(), 0.01))].into();
         (check, Seen { state: State::Wrong, numbers })
     };
     let checks = rubric().checks().map(|(_, spec)| spec.id()).collect::<Vec<_>>();
@@ -91,14 +94,14 @@ fn observations_that_fit_nothing_are_unknown() {
 }
 
 #[test]
-fn nothing_is_said_of_a_submission_whose_checks_all_pass() {
+fn a_submission_that_passes_all_checks_has_no_cause() {
     let right = Seen { state: State::Pass, numbers: Default::default() };
     let vector = Vector(rubric().checks().map(|(_, spec)| (spec.id(), right.clone())).collect());
     assert!(catalogue().names(&vector).is_empty());
 }
 
 #[test]
-fn the_table_is_that_of_the_committed_observations() {
+fn the_confusion_matrix_is_up_to_date() {
     let path = workspace().variants().join("confusion.md");
     let table = std::fs::read_to_string(&path).expect("it is there").replace("\r\n", "\n");
     let [wrong, first, named] = confusion(Vector::clone).wrong();
@@ -106,11 +109,11 @@ fn the_table_is_that_of_the_committed_observations() {
         format!("- right cause first: {first} of {wrong} "),
         format!("- right cause among the first three: {named} of {wrong} "),
     ] {
-        assert!(table.contains(&line), "make it anew with `cargo lab signatures`: {line}");
+        assert!(table.contains(&line), "outdated, run `cargo lab signatures`: {line}");
     }
 }
 
-/// Nothing of these programs is the solution's but what they do: their mistakes have to be known all the same.
+/// These programs share no code with the solution; their mistakes are recognised all the same.
 #[test]
 fn the_cause_is_named_in_programs_of_another_style() {
     let options = Options {
@@ -139,15 +142,19 @@ fn the_cause_is_named_in_programs_of_another_style() {
         assert_eq!(source.matches(from).count(), 1, "{style}");
         let submission = Submission { path: format!("{style}.rs").into(), source: source.replace(from, to) };
         let report = grader.grade(&submission, |_| {}).expect("the harness works");
-        let named: Vec<&str> = report.diagnosis.iter().map(|cause| cause.mistake.as_str()).collect();
+        let named: Vec<&str> = report.diagnosis.iter().map(|diagnosis| diagnosis.cause.id()).collect();
         assert_eq!(named.first(), Some(&cause), "{style}: {named:?}");
-        assert!(report.diagnosis.iter().all(|cause| !cause.evidence.is_empty() && !cause.hint.is_empty()));
+        for diagnosis in &report.diagnosis {
+            assert!(diagnosis.seen.is_some(), "{style}: {diagnosis:?}");
+            let has_hint = matches!(&diagnosis.cause, Cause::Known { hint, .. } if !hint.is_empty());
+            assert!(has_hint, "{style}: {diagnosis:?}");
+        }
     }
 }
 
-/// With `--only`, there is little to compare.
+/// Also with `--only`, which leaves little to compare.
 #[test]
-fn the_starting_file_is_told_where_to_begin() {
+fn an_untouched_starting_file_is_recognised() {
     let workspace = workspace();
     let source = std::fs::read_to_string(workspace.student_file()).expect("it is there");
     let submission = Submission { path: "render_pt.rs".into(), source };
@@ -162,6 +169,5 @@ fn the_starting_file_is_told_where_to_begin() {
         .and_then(|grader| grader.grade(&submission, |_| {}))
         .expect("the harness works");
     let [only] = &report.diagnosis[..] else { panic!("{:?}", report.diagnosis) };
-    assert_eq!(only.mistake, "not-begun");
-    assert!(only.hint.contains("Begin with 5.1a"), "{}", only.hint);
+    assert_eq!(only.cause, Cause::NotBegun);
 }

@@ -1,13 +1,14 @@
-//! The handout, as a student gets it: made anew, built and graded by itself, and searched for the solution.
+//! The handout as students get it: it builds and grades by itself, and contains nothing of the solution.
 //!
-//! Its folder stays in `target/tmp` for what is built there: from nothing this takes minutes, later less than two.
+//! Its folder stays in `target/tmp` with its build: the first run takes minutes, later ones less than two.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use harness::workspace::Workspace;
 use lab::handout::Secrets;
-use verdict::report::{Report, Verdict};
+use verdict::check::{CheckKind, Verdict, WhyNot};
+use verdict::report::Report;
 
 fn workspace() -> Workspace {
     Workspace::find().expect("the tests run inside the checkout")
@@ -17,7 +18,7 @@ fn solution() -> String {
     std::fs::read_to_string(workspace().solution_file()).expect("the solution is there")
 }
 
-fn grader(arguments: &[&str]) -> Output {
+fn lab(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_lab")).args(arguments).output().expect("the program starts")
 }
 
@@ -25,7 +26,7 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// Makes the handout at `folder`; what was built there before stays.
+/// Makes the handout at `folder`; an earlier build there stays.
 fn make(folder: &Path) {
     let built = folder.with_extension("built");
     if folder.exists() {
@@ -34,7 +35,7 @@ fn make(folder: &Path) {
         let _ = std::fs::rename(folder.join("target"), &built);
         std::fs::remove_dir_all(folder).expect("the earlier handout can be removed");
     }
-    let made = grader(&["handout", "--out", &folder.display().to_string()]);
+    let made = lab(&["handout", "--out", &folder.display().to_string()]);
     assert_eq!(made.status.code(), Some(0), "{}", text(&made.stderr));
     if built.is_dir() {
         std::fs::rename(&built, folder.join("target")).expect("it can be moved back");
@@ -52,7 +53,7 @@ fn files_below(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// Calls Cargo as a student would, with nothing that this test was called with.
+/// Calls Cargo as a student would, without the environment of this test.
 fn cargo(folder: &Path, arguments: &[&str]) -> Output {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.args(arguments).current_dir(folder);
@@ -114,12 +115,12 @@ fn a_handout_is_written_to_a_new_folder_only() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let out = folder.path().display().to_string();
     std::fs::write(folder.path().join("mine"), "x").expect("it can be written");
-    let refused = grader(&["handout", "--out", &out]);
+    let refused = lab(&["handout", "--out", &out]);
     assert_eq!(refused.status.code(), Some(2), "{}", text(&refused.stderr));
     assert_eq!(std::fs::read_dir(folder.path()).expect("it is there").count(), 1, "nothing else was written");
 }
 
-/// From nothing this builds grader and framework in release mode: minutes.
+/// The first run builds grader and framework in release mode, which takes minutes.
 #[test]
 fn a_handout_builds_and_grades_by_itself() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("handout");
@@ -136,21 +137,21 @@ fn a_handout_builds_and_grades_by_itself() {
     let graded = report(&folder);
     let failed: Vec<_> = graded.checks.iter().filter(|check| check.verdict != Verdict::Pass).collect();
     assert!(failed.is_empty(), "{failed:#?}");
-    // All that can be had here; what the tutors' checks carry is named, and is not much.
+    // All points but those of checks that only staff can run, which are few.
     let points = graded.points;
-    assert_eq!(points.earned + points.elsewhere, points.automatic_max, "{points:?}");
-    assert!(points.elsewhere > 0.0 && points.elsewhere < 0.1 * points.automatic_max, "{points:?}");
-    let why: Vec<&str> = graded
-        .left_out
+    assert_eq!(points.earned + points.staff_only, points.automatic_max, "{points:?}");
+    assert!(points.staff_only > 0.0 && points.staff_only < 0.1 * points.automatic_max, "{points:?}");
+    let why: Vec<&WhyNot> = graded
+        .skipped
         .iter()
-        .filter(|left_out| left_out.check.starts_with("hidden-variants"))
-        .map(|left_out| left_out.why.as_str())
+        .filter(|skipped| skipped.kind == CheckKind::HiddenVariants)
+        .map(|skipped| &skipped.why)
         .collect();
-    assert_eq!(why, ["there is no solution here to compare with"; 2]);
-    let said = format!("{} rest on checks that only your tutors can run", points.elsewhere);
-    assert!(text(&right.stdout).contains(&said), "{}", text(&right.stdout));
+    assert_eq!(why, [&WhyNot::NoSolution; 2]);
+    // How it is said is up to `present`.
+    assert!(text(&right.stdout).contains(&points.staff_only.to_string()), "{}", text(&right.stdout));
 
-    // A scene that the rubric names and only staff have.
+    // A scene of the rubric that only staff have.
     let rubric = folder.join("assignments/05-nee-mis/rubric.yml");
     let known = std::fs::read_to_string(&rubric).expect("it is there");
     let first = "- { check: mean-bias, scene: three_points,";
@@ -161,12 +162,12 @@ fn a_handout_builds_and_grades_by_itself() {
     let right = cargo(&folder, &["grade", &file, "--no-report"]);
     assert_eq!(right.status.code(), Some(0), "{}", text(&right.stderr));
     let graded = report(&folder);
-    let cellar = graded.left_out.iter().find(|left_out| left_out.scene == "hidden/cellar");
-    assert_eq!(cellar.map(|left_out| left_out.why.as_str()), Some("its scene is not here"));
-    assert!(graded.points.elsewhere > points.elsewhere, "{:?}", graded.points);
-    assert_eq!(graded.points.earned + graded.points.elsewhere, points.automatic_max, "{:?}", graded.points);
+    let cellar = graded.skipped.iter().find(|skipped| skipped.scene == "hidden/cellar");
+    assert_eq!(cellar.map(|skipped| &skipped.why), Some(&WhyNot::SceneNotHere));
+    assert!(graded.points.staff_only > points.staff_only, "{:?}", graded.points);
+    assert_eq!(graded.points.earned + graded.points.staff_only, points.automatic_max, "{:?}", graded.points);
 
-    // No test of the grader is there that would need the solution.
+    // No test of the grader is included.
     let tests = cargo(&folder, &["test", "-p", "grader", "-p", "host"]);
     assert_eq!(tests.status.code(), Some(0), "{}", text(&tests.stderr));
     assert!(!text(&tests.stdout).contains("running"), "{}", text(&tests.stdout));

@@ -1,5 +1,5 @@
-//! The variants of the solution: that they are what they say, that the table is about them, and, of a few, what the
-//! grader makes of them. Seeds are fixed: each run gives the same verdicts.
+//! The variants of the solution: they are as described, the kill matrix is up to date, and a few of them are graded.
+//! Seeds are fixed: each run gives the same verdicts.
 
 use std::collections::BTreeSet;
 
@@ -8,11 +8,11 @@ use harness::sandbox::Limits;
 use harness::workspace::Workspace;
 use judge::grade::{Options, grade};
 use lab::mutants::{Kind, Variant, Variants, variants};
-use verdict::report::Verdict;
-use verdict::rubric::{CheckKind, Rubric};
+use verdict::check::{CheckKind, Verdict};
+use verdict::rubric::Rubric;
 use verdict::submission::Submission;
 
-/// The numbers that the catalogue of mistakes has given out.
+/// The numbers of the catalogue of mistakes.
 const CATALOGUE: [u32; 47] = [
     1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 29, 30,
     31, 32, 33, 34, 35, 36, 38, 39, 41, 43, 45, 47, 49, 52, 53, 54, 55, 56, 57,
@@ -29,7 +29,7 @@ fn all() -> Variants {
 }
 
 #[test]
-fn every_mistake_of_the_catalogue_is_a_variant_or_said_to_be_impossible() {
+fn every_mistake_of_the_catalogue_has_a_variant_or_is_declared_impossible() {
     let all = all();
     let named: BTreeSet<String> = all
         .list
@@ -42,7 +42,7 @@ fn every_mistake_of_the_catalogue_is_a_variant_or_said_to_be_impossible() {
 }
 
 #[test]
-fn there_are_a_dozen_right_variants_and_no_two_variants_are_the_same() {
+fn there_are_a_dozen_correct_variants_and_no_two_variants_are_equal() {
     let all = all();
     assert!(all.list.iter().filter(|variant| variant.kind == Kind::Right).count() >= 12);
     let sources: BTreeSet<&str> = all.list.iter().map(|variant| variant.source.as_str()).collect();
@@ -60,7 +60,7 @@ fn every_variant_compiles() {
 }
 
 #[test]
-fn the_kill_matrix_is_about_the_variants_that_there_are() {
+fn the_kill_matrix_lists_all_variants() {
     let path = workspace().kill_matrix();
     let table = std::fs::read_to_string(&path).expect("the table is there");
     let listed: Vec<&str> = table
@@ -70,7 +70,7 @@ fn the_kill_matrix_is_about_the_variants_that_there_are() {
         .collect();
     let variants = all().list;
     let there: Vec<&str> = variants.iter().map(|variant| variant.id.as_str()).collect();
-    assert_eq!(listed, there, "make the table anew with `cargo lab mutants`");
+    assert_eq!(listed, there, "outdated: run `cargo lab mutants`");
 }
 
 fn verdict(variant: &Variant, check: &str) -> Verdict {
@@ -84,12 +84,12 @@ fn verdict(variant: &Variant, check: &str) -> Verdict {
     };
     let report = grade(&workspace(), &submission, &options, |_| {}).expect("the harness works");
     assert_eq!(report.checks.len(), 1, "{check}");
-    report.checks[0].verdict
+    report.checks[0].verdict.clone()
 }
 
-/// Each check has a mistake that it catches, and right programs that it lets pass.
+/// Each kind of check fails on a mistake that it is for, and passes correct programs.
 #[test]
-fn every_check_fails_on_what_it_is_for() {
+fn every_kind_of_check_fails_on_a_mistake_and_passes_correct_programs() {
     let variants = all().list;
     let mut judged = BTreeSet::new();
     for (check, wrong) in [
@@ -119,5 +119,5 @@ fn every_check_fails_on_what_it_is_for() {
         }
     }
     let kinds: BTreeSet<&str> = CheckKind::ALL.iter().map(|kind| kind.name()).collect();
-    assert_eq!(judged, kinds, "a check that nobody has seen fail");
+    assert_eq!(judged, kinds, "a kind of check that is never seen to fail");
 }

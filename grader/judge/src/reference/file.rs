@@ -21,7 +21,10 @@ const SCENE_HASH: &str = "arty:scene_hash";
 const PROVENANCE: &str = "arty:";
 const EMISSION_OFF: &str = ".emission-off";
 
-/// Writes a reference.
+/// Writes a reference. The same reference gives the same bytes.
+///
+/// # Errors
+/// If it has no image, or the file cannot be written.
 pub fn save(reference: &Reference, path: &Path) -> Result<()> {
     let Some(most) = reference.views.values().next_back() else {
         return Err(Error::Harness(format!("{}: a reference without an image", path.display())));
@@ -39,7 +42,7 @@ pub fn save(reference: &Reference, path: &Path) -> Result<()> {
             file = file.with_layer(&name(&format!("{technique}.skewness")), &to_image(&moments.skewness));
         }
     }
-    Ok(file.write(path, Precision::Full)?)
+    file.write(path, Precision::Full).map_err(|error| Error::Output(error.to_string()))
 }
 
 /// Reads the reference of a scene, and refuses one that shows another scene than this.
@@ -89,7 +92,7 @@ pub fn load(path: &Path, scene: &str, description: &SceneDescription) -> Result<
 }
 
 /// `bounces8`, or `bounces8.emission-off`.
-fn layer_name(view: &View) -> String {
+pub(super) fn layer_name(view: &View) -> String {
     let emission = if view.emission_on_hit == EmissionOnHit::Off { EMISSION_OFF } else { "" };
     format!("bounces{}{emission}", view.max_bounces)
 }
@@ -125,20 +128,13 @@ fn from_image(image: &Image) -> Vec<[f64; 3]> {
 
 #[cfg(test)]
 mod tests {
-    use arty::math::Vec3;
-    use arty::scene::{CameraDescription, Defaults};
-
     use super::*;
+    use crate::scenes;
 
     fn scene(fov: f32) -> SceneDescription {
-        SceneDescription {
-            camera: CameraDescription { eye: Vec3::ZERO, center: Vec3::Z, up: Vec3::Y, fov },
-            meshes: Vec::new(),
-            materials: Vec::new(),
-            textures: Vec::new(),
-            lights: Vec::new(),
-            defaults: Defaults::default(),
-        }
+        let mut scene = scenes::empty();
+        scene.camera.fov = fov;
+        scene
     }
 
     fn reference() -> Reference {
@@ -157,7 +153,9 @@ mod tests {
                 (View { max_bounces: 8, emission_on_hit: EmissionOnHit::Off }, light(4.0)),
                 (View { max_bounces: 8, emission_on_hit: EmissionOnHit::On }, light(8.0)),
             ]),
-            provenance: BTreeMap::from([("seed".to_owned(), "7".to_owned())]),
+            provenance: [("seed", "7"), ("batches", "64"), ("bounces1.technique", "mis")]
+                .map(|(key, value)| (key.to_owned(), value.to_owned()))
+                .into(),
         }
     }
 
@@ -167,6 +165,17 @@ mod tests {
         let path = folder.path().join("box.exr");
         save(&reference(), &path).expect("it can be saved");
         assert_eq!(load(&path, "box", &scene(40.0)).expect("it can be loaded"), reference());
+    }
+
+    #[test]
+    fn two_files_of_one_reference_have_the_same_bytes() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let bytes = |name: &str| {
+            let path = folder.path().join(name);
+            save(&reference(), &path).expect("it can be saved");
+            std::fs::read(path).expect("it can be read")
+        };
+        assert_eq!(bytes("a.exr"), bytes("b.exr"));
     }
 
     #[test]

@@ -9,6 +9,7 @@ use arty::sampler::batch_seed;
 use arty::scene::SceneDescription;
 use host::protocol::{RenderJob, Switches};
 
+use super::file::layer_name;
 use super::{Moments, Reference, ReferenceView, SIZE};
 use crate::statistics::bias::Expected;
 use harness::build::SubmissionProgram;
@@ -47,6 +48,7 @@ pub fn make(
 ) -> Result<Reference> {
     let mut renderer = Renderer::start(solution, description, rayon::current_num_threads())?;
     let mut views = BTreeMap::new();
+    let mut provenance = BTreeMap::new();
     for (&view, techniques) in wanted {
         let max_bounces = view.max_bounces;
         let emission_on_hit = view.emission_on_hit == EmissionOnHit::On;
@@ -64,17 +66,17 @@ pub fn make(
             let samples = renderer.render(SIZE, settings, effort.single_samples, 1, seed ^ 1)?;
             light.techniques.insert(technique.name(), moments(&samples));
         }
+        provenance.insert(format!("{}.technique", layer_name(&view)), technique.to_string());
         views.insert(view, light);
     }
     let samples = u64::from(effort.batches) * effort.samples;
-    let provenance = [
+    let of_all = [
         ("samples per pixel", samples.to_string()),
         ("batches", effort.batches.to_string()),
         ("samples per pixel for moments", effort.single_samples.to_string()),
-        ("technique", Technique::Mis.to_string()),
         ("seed", seed.to_string()),
     ];
-    let provenance = provenance.into_iter().map(|(key, value)| (key.to_owned(), value)).collect();
+    provenance.extend(of_all.map(|(key, value)| (key.to_owned(), value)));
     Ok(Reference { scene_hash: description.hash(), views, provenance })
 }
 

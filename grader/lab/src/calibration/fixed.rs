@@ -1,8 +1,8 @@
-//! Two simpler tests, to see what looking again and again is worth.
+//! Two simpler tests, as a baseline for the sequential one.
 //!
-//! Both take a number of samples that is fixed beforehand. Both are held to the nominal rate of false alarms that ours has
-//! in one check, divided among what they look at (Šidák). Heavy tails make that rate a wish, so a number of samples is only
-//! enough if it gives no alarm in [`DRAWS`] draws of correct samples ([`Quiet`]).
+//! Both take a number of samples that is fixed in advance, at the nominal rate of false alarms that the sequential test has
+//! in one check, divided among all that they compare (Šidák). Heavy tails break that nominal rate, so a number of samples
+//! only counts as enough if it gives no alarm in [`DRAWS`] draws of correct samples ([`AlarmCache`]).
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -15,14 +15,15 @@ use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 use super::{Counts, Pool};
 use judge::reference::SIZE;
 use judge::statistics::bias::smallest_of;
-use judge::statistics::regions::{Kind, Region, luminance, pyramid};
+use judge::statistics::regions::{Region, luminance, pyramid};
 use judge::statistics::sequential::Demand;
+use verdict::check::RegionKind;
 
 /// A test of means.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Test {
-    /// Ours.
+    /// The test that the grader uses.
     #[default]
     Sequential,
     /// Welch's t-test of the luminance of 64 tiles against a reference with as many samples (Jung, Hanika and
@@ -33,7 +34,7 @@ pub enum Test {
 }
 
 impl Test {
-    /// All of them.
+    /// All tests.
     pub const ALL: [Self; 3] = [Self::Sequential, Self::Welch, Self::Pixels];
 
     /// Its name in tables.
@@ -46,71 +47,77 @@ impl Test {
     }
 }
 
-/// With how many samples which test gives no alarm in draws of a check's correct samples, as far as that was tried.
+/// For the correct samples of one check: whether a test with a number of samples per pixel gives no alarm in any draw.
 #[derive(Default)]
-pub struct Quiet(Mutex<BTreeMap<(Test, u64), bool>>);
+pub struct AlarmCache(Mutex<BTreeMap<(Test, u64), bool>>);
 
-/// What a test with a fixed number of samples decides on.
+/// A test with a fixed number of samples, and the samples that it is applied to.
 #[derive(Clone, Copy)]
 pub(super) struct Fixed<'a> {
-    /// Which of the two.
+    /// One of the two simpler tests.
     pub(super) test: Test,
-    /// What is judged, and how much brighter than recorded.
+    /// Samples that are judged.
     pub(super) pool: &'a Pool,
+    /// Relative error that is added to them.
     pub(super) bias: f64,
-    /// What is right.
+    /// Correct samples.
     pub(super) truth: &'a Pool,
-    /// How often it may be wrong.
+    /// Nominal probability of a false alarm.
     pub(super) level: f64,
+    /// Seed of all draws.
     pub(super) seed: u64,
-    /// What is known of the same check's correct samples.
-    pub(super) quiet: &'a Quiet,
+    /// False alarms on the correct samples.
+    pub(super) known: &'a AlarmCache,
 }
 
-/// Of twenty, how many have to be found for a number of samples to be enough.
+/// Draws with which a number of samples is tried.
 const DRAWS: u64 = 20;
+
+/// Draws in which the error must be found for a number of samples to be enough.
 const ENOUGH: u64 = 19;
 
-/// The fewest and the most samples of each pixel that are tried. Ours takes up to 10,240.
-const FEWEST: u64 = 32;
-const MOST: u64 = 8192;
+/// Smallest number of samples per pixel that is tried.
+const MIN_SAMPLES: u64 = 32;
+
+/// Largest number of samples per pixel that is tried. The sequential test takes up to 10,240.
+const MAX_SAMPLES: u64 = 8192;
 
 impl Fixed<'_> {
-    /// How often it sounds an alarm with so many samples of each pixel.
+    /// Alarms in `draws` draws of `samples` samples per pixel.
     pub(super) fn alarms(&self, samples: u64, draws: u64) -> Counts {
         let found = (0..draws).into_par_iter().filter(|&number| self.finds(samples, number)).count() as u64;
         self.counts(samples, draws, found)
     }
 
-    /// With the fewest samples that are enough; with the most, if none are.
+    /// The result with the smallest number of samples that is enough, or with the largest one if none is.
     pub(super) fn need(&self) -> Counts {
-        let mut samples = FEWEST;
+        let mut samples = MIN_SAMPLES;
         loop {
-            let found = if self.is_quiet(samples) { self.found(samples) } else { 0 };
-            if found >= ENOUGH || samples >= MOST {
+            let found = if self.has_no_false_alarm(samples) { self.found(samples) } else { 0 };
+            if found >= ENOUGH || samples >= MAX_SAMPLES {
                 return self.counts(samples, DRAWS, found);
             }
             samples *= 2;
         }
     }
 
-    /// How many draws give an alarm; too few, where that is too few.
+    /// Draws that give an alarm. Stops counting as soon as fewer than [`ENOUGH`] can.
     fn found(&self, samples: u64) -> u64 {
         let missed = (0..DRAWS).into_par_iter().filter(|&number| !self.finds(samples, number));
         DRAWS - missed.take_any((DRAWS - ENOUGH + 1) as usize).count() as u64
     }
 
     /// True if no draw of correct samples gives an alarm.
-    fn is_quiet(&self, samples: u64) -> bool {
-        let known = || self.quiet.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(&quiet) = known().get(&(self.test, samples)) {
-            return quiet;
+    fn has_no_false_alarm(&self, samples: u64) -> bool {
+        let known = || self.known.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(&answer) = known().get(&(self.test, samples)) {
+            return answer;
         }
         let right = Fixed { pool: self.truth, bias: 0.0, ..*self };
-        // Other draws than those in which something is to be found.
-        let quiet = (DRAWS..2 * DRAWS).into_par_iter().all(|number| !right.finds(samples, number));
-        known().insert((self.test, samples), quiet);
-        quiet
+        // Independent of the draws in which the error is to be found.
+        let answer = (DRAWS..2 * DRAWS).into_par_iter().all(|number| !right.finds(samples, number));
+        known().insert((self.test, samples), answer);
+        answer
     }
 
     fn counts(&self, samples: u64, grades: u64, found: u64) -> Counts {
@@ -132,7 +139,10 @@ impl Fixed<'_> {
                 .collect();
             let right = draw(self.truth, 0.0, 2);
             let p = |tile: &Region| {
-                welch(&moments(&own, |image| sum(tile, image)), &moments(&right, |image| sum(tile, image)))
+                welch(
+                    &moments(&own, |image| mean_of(tile, image)),
+                    &moments(&right, |image| mean_of(tile, image)),
+                )
             };
             smallest_of(tiles.len(), tiles.iter().map(p).fold(1.0, f64::min))
         } else {
@@ -149,8 +159,8 @@ impl Fixed<'_> {
     }
 }
 
-/// A tile of an image.
-fn sum(tile: &Region, image: &[[f32; 3]]) -> f64 {
+/// Mean of a tile of an image.
+fn mean_of(tile: &Region, image: &[[f32; 3]]) -> f64 {
     let products = |&(pixel, weights): &(usize, [f64; 3])| -> f64 {
         (0..3).map(|channel| weights[channel] * f64::from(image[pixel][channel])).sum()
     };
@@ -212,23 +222,23 @@ mod tests {
             let mut random = arty::sampler::Sampler::new(number, (0, 0), 0);
             (0..256).map(|_| [-(1.0 - random.next_1d()).ln(); 3]).collect()
         };
-        let (pool, quiet) = (Pool::of((0..4096).map(image).collect()), Quiet::default());
+        let (pool, known) = (Pool::of((0..4096).map(image).collect()), AlarmCache::default());
         for test in [Test::Welch, Test::Pixels] {
             let need = |bias| {
-                Fixed { test, pool: &pool, bias, truth: &pool, level: 1e-6, seed: 1, quiet: &quiet }.need()
+                Fixed { test, pool: &pool, bias, truth: &pool, level: 1e-6, seed: 1, known: &known }.need()
             };
             let (large, small) = (need(1.0), need(0.3));
             assert!(large.biased >= ENOUGH && small.biased >= ENOUGH, "{test:?}: {large:?} {small:?}");
             assert!(small.samples > 2 * large.samples, "{test:?}: {large:?} {small:?}");
             let none =
-                Fixed { test, pool: &pool, bias: 0.0, truth: &pool, level: 1e-6, seed: 1, quiet: &quiet }
+                Fixed { test, pool: &pool, bias: 0.0, truth: &pool, level: 1e-6, seed: 1, known: &known }
                     .alarms(256, 20);
             assert_eq!(none.biased, 0, "{test:?}: nominally 2e-5");
         }
     }
 
     #[test]
-    fn what_gives_false_alarms_finds_nothing() {
+    fn a_test_with_false_alarms_finds_nothing() {
         // One sample in ten thousand is ten thousand times as bright: a z-test knows neither mean nor variance.
         let image = |number: u64| {
             let mut random = arty::sampler::Sampler::new(number, (0, 0), 0);
@@ -236,7 +246,7 @@ mod tests {
                 .map(|_| [if random.next_1d() < 1e-4 { 1e4 } else { 0.1 * random.next_1d() }; 3])
                 .collect()
         };
-        let (pool, quiet) = (Pool::of((0..4096).map(image).collect()), Quiet::default());
+        let (pool, known) = (Pool::of((0..4096).map(image).collect()), AlarmCache::default());
         let fixed = |bias| Fixed {
             test: Test::Pixels,
             pool: &pool,
@@ -244,11 +254,11 @@ mod tests {
             truth: &pool,
             level: 1e-6,
             seed: 1,
-            quiet: &quiet,
+            known: &known,
         };
-        assert_eq!(fixed(0.0).alarms(FEWEST, 20).biased, 20);
-        assert_eq!(fixed(0.0).found(FEWEST), DRAWS);
-        assert!(!fixed(0.05).is_quiet(FEWEST));
-        assert!(fixed(0.05).need().samples > 64 * FEWEST * u64::from(SIZE.0 * SIZE.1));
+        assert_eq!(fixed(0.0).alarms(MIN_SAMPLES, 20).biased, 20);
+        assert_eq!(fixed(0.0).found(MIN_SAMPLES), DRAWS);
+        assert!(!fixed(0.05).has_no_false_alarm(MIN_SAMPLES));
+        assert!(fixed(0.05).need().samples > 64 * MIN_SAMPLES * u64::from(SIZE.0 * SIZE.1));
     }
 }

@@ -1,18 +1,20 @@
-//! How often are correct submissions failed, and how small an error is found?
+//! How often do correct submissions fail, and how small an error is found?
 //!
-//! Whole grades are dear: a thousand of them take an hour. So the statistics are calibrated alone as well: for each
-//! correct variant and each check by means, thousands of single samples of each pixel are [recorded](pool::Pool), heavy
-//! tails and all, and drawn from with replacement. In that world the true mean is known, that of the pool, and a grade
-//! costs a millisecond. A bias is put in by brightening all samples. Two simpler [tests](Test) are given the same samples,
-//! to see what ours saves; and all three are given those of wrong variants.
+//! Whole grades are expensive: a thousand of them take an hour. So the statistics are also calibrated alone: for each
+//! correct variant and each check of means, thousands of single samples of each pixel are [recorded](pool::Pool), heavy
+//! tails included, and drawn with replacement. The true mean of such draws is known, that of the pool, and a grade costs
+//! a millisecond. A bias is simulated by scaling all samples. Two simpler [tests](Test) get the same samples, to see what
+//! the sequential test saves; and all three get those of wrong variants. [`Experiment`] runs all of it.
 
+mod experiment;
 mod fixed;
 mod plot;
 mod pool;
 mod results;
 mod table;
 
-pub use fixed::{Quiet, Test};
+pub use experiment::{Effort, Experiment};
+pub use fixed::{AlarmCache, Test};
 pub use plot::svg;
 pub use pool::Pool;
 pub use results::{Counts, Line, Results};
@@ -25,31 +27,32 @@ use judge::statistics::bias::Expected;
 use judge::statistics::regions::{Region, pyramid, weighted_image};
 use judge::statistics::sequential::{CONFIRMATION_LEVEL, LOOKS, Question, judge};
 
-/// Samples of each pixel with which the false alarms of tests with a fixed number are counted.
+/// Samples per pixel with which the false alarms of the tests of fixed size are counted.
 const FIXED_SAMPLES: u64 = 1024;
 
-/// A check by means whose statistics are tried.
+/// The statistics of one check, applied to recorded samples.
 pub struct Trial<'a> {
-    /// Recorded samples.
+    /// Samples that are judged.
     pub pool: &'a Pool,
-    /// Recorded samples of a correct program: the same pool, unless a wrong one is judged.
+    /// Samples of a correct program: the same pool, unless a wrong variant is judged.
     pub truth: &'a Pool,
-    /// The noise that the check expects; its means are not used.
+    /// Distribution that the check expects; its means are not used.
     pub expected: &'a Expected,
-    /// The relative error that a pass excludes.
+    /// Relative error that a pass excludes.
     pub tolerance: f64,
-    /// The share of the screening level that the check may spend.
+    /// Share of the screening level that the check may spend.
     pub screening_level: f64,
-    /// What the simpler tests make of the correct samples.
-    pub quiet: &'a Quiet,
+    /// False alarms of the tests of fixed size on the correct samples.
+    pub alarms: &'a AlarmCache,
 }
 
 impl Trial<'_> {
-    /// Judges draws from the pool, with all samples `1 + bias` times as bright: `count` of them by our test and wherever
-    /// nothing is to be found, and as many as tell whether an error is found by the others.
+    /// Judges draws from the pool with all samples multiplied by `1 + bias`. The sequential test judges `count` draws, and
+    /// so do the others where there is no error to find; where there is one, they judge as many as it takes to tell whether
+    /// they find it.
     pub fn run(&self, test: Test, count: u64, bias: f64, seed: u64) -> Counts {
         let level = self.screening_level * CONFIRMATION_LEVEL;
-        let fixed = Fixed { test, pool: self.pool, bias, truth: self.truth, level, seed, quiet: self.quiet };
+        let fixed = Fixed { test, pool: self.pool, bias, truth: self.truth, level, seed, known: self.alarms };
         match test {
             Test::Sequential => self.judge(count, bias, seed),
             _ if bias == 0.0 && std::ptr::eq(self.pool, self.truth) => fixed.alarms(FIXED_SAMPLES, count),

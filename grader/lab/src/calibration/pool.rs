@@ -1,4 +1,4 @@
-//! Recorded samples to draw from.
+//! Recorded samples of single paths, to draw from.
 
 use std::time::Instant;
 
@@ -8,10 +8,10 @@ use arty::scene::SceneDescription;
 use host::protocol::{RenderJob, Switches};
 
 use harness::build::SubmissionProgram;
-use harness::host_process::{Fault, HostProcess};
+use harness::host_process::HostProcess;
+use harness::job::JobError;
 use judge::reference::SIZE;
 use judge::statistics::sequential::Demand;
-use verdict::error::Result;
 
 /// Images of one sample each.
 pub struct Pool {
@@ -19,14 +19,14 @@ pub struct Pool {
     seconds_per_path: f64,
 }
 
-/// Images that one job asks for.
+/// Images per job.
 const PER_JOB: u64 = 1024;
 
 impl Pool {
-    /// Renders `count` images of one sample.
+    /// Renders `count` images of one sample per pixel.
     ///
     /// # Errors
-    /// The outer error is the harness's, the inner one the program's.
+    /// If the program does not answer, or something else is wrong.
     pub fn record(
         program: &SubmissionProgram,
         scene: &SceneDescription,
@@ -35,48 +35,33 @@ impl Pool {
         count: u64,
         threads: usize,
         seed: u64,
-    ) -> Result<std::result::Result<Self, Fault>> {
+    ) -> Result<Self, JobError> {
         let mut process = HostProcess::start(program, threads)?;
-        let scene = match process.load(scene)? {
-            Ok(scene) => scene,
-            Err(fault) => return Ok(Err(fault)),
-        };
+        let scene = process.load(scene)?;
         let mut images = Vec::new();
         let start = Instant::now();
         for first in (0..count).step_by(PER_JOB as usize) {
             let seeds = (first..count.min(first + PER_JOB)).map(|batch| batch_seed(seed, batch)).collect();
-            let job = RenderJob {
-                scene,
-                settings,
-                width: SIZE.0,
-                height: SIZE.1,
-                seeds,
-                first_sample: 0,
-                samples: 1,
-                switches,
-            };
-            match process.render(&job)? {
-                Ok(rendered) => images.extend(rendered.batches),
-                Err(fault) => return Ok(Err(fault)),
-            }
+            let job = RenderJob { switches, ..RenderJob::new(scene, settings, SIZE.into(), seeds, 1) };
+            images.extend(process.render(&job)?.batches);
         }
         let paths = images.len() as f64 * f64::from(SIZE.0 * SIZE.1);
         let seconds_per_path = start.elapsed().as_secs_f64() * threads as f64 / paths.max(1.0);
-        Ok(Ok(Self { images, seconds_per_path }))
+        Ok(Self { images, seconds_per_path })
     }
 
-    /// Images that were made elsewhere.
+    /// A pool of given images.
     #[cfg(test)]
     pub(super) fn of(images: Vec<Vec<[f32; 3]>>) -> Self {
         Self { images, seconds_per_path: 0.0 }
     }
 
-    /// Processor time of one path, in seconds, as it was while recording.
+    /// Processor time of one path in seconds, measured while recording.
     pub fn seconds_per_path(&self) -> f64 {
         self.seconds_per_path
     }
 
-    /// The mean of each pixel: the truth for everything that is drawn from the pool.
+    /// Mean of each pixel: the true mean of everything that is drawn from the pool.
     pub fn mean(&self) -> Vec<[f64; 3]> {
         let mut sums = vec![[0.0; 3]; self.images.first().map_or(0, Vec::len)];
         for image in &self.images {
@@ -88,11 +73,11 @@ impl Pool {
         sums.into_iter().map(|sum| sum.map(|sum| sum / count)).collect()
     }
 
-    /// The batches that are wanted, from images picked at random, `1 + bias` times as bright.
+    /// The batches that are asked for, averaged over images drawn at random and multiplied by `1 + bias`.
     pub fn draw(&self, demand: &Demand, bias: f64) -> Vec<Vec<[f32; 3]>> {
         let scale = ((1.0 + bias) / demand.samples as f64) as f32;
         let batch = |&seed: &u64| {
-            // A batch's numbers go on where those of its samples before ended.
+            // Continues the random numbers of the batch's earlier samples.
             let mut random = Sampler::new(seed, (0, 0), demand.first_sample);
             let mut sum = vec![[0.0f32; 3]; self.images.first().map_or(0, Vec::len)];
             for _ in 0..demand.samples {

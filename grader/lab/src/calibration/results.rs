@@ -1,4 +1,4 @@
-//! What was counted, kept so that nothing is computed twice.
+//! Counted decisions, kept on disk so that no simulation runs twice.
 
 use std::collections::BTreeSet;
 use std::io::Write;
@@ -7,24 +7,26 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::Test;
+use crate::output::{create_folder, failed};
 use judge::statistics::sequential::Decision;
+use verdict::check::CheckId;
 use verdict::error::{Error, Result};
 
-/// How judgements ended.
+/// Decisions of simulated checks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counts {
-    /// All of them.
+    /// Simulated checks.
     pub grades: u64,
-    /// Those that found a bias.
+    /// Of these, biased.
     pub biased: u64,
-    /// Those that could not tell.
+    /// Of these, inconclusive.
     pub unclear: u64,
-    /// Paths that they took.
+    /// Paths traced in all of them.
     pub samples: u64,
 }
 
 impl Counts {
-    /// One judgement.
+    /// A single decision.
     pub(super) fn of(decision: Decision, samples: u64) -> Self {
         let is = |other| u64::from(decision == other);
         Self { grades: 1, biased: is(Decision::Biased), unclear: is(Decision::Unclear), samples }
@@ -44,70 +46,70 @@ impl std::ops::Add for Counts {
     }
 }
 
-/// One check of one variant with one bias: a line of the file.
+/// One check of one variant at one bias: a line of the file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Line {
-    /// Hash of all that the result depends on.
+    /// Hash of everything that the result depends on.
     pub key: String,
-    /// The variant's name.
+    /// Name of the variant.
     pub variant: String,
     /// The check.
-    pub check: String,
-    /// Which test judged.
+    pub check: CheckId,
+    /// The test.
     #[serde(default)]
     pub test: Test,
-    /// How much too bright all samples were made.
+    /// Relative error that was added to all samples.
     pub bias: f64,
-    /// What came out.
+    /// The decisions.
     pub counts: Counts,
-    /// Processor time of a path, in seconds.
+    /// Processor time of a path in seconds.
     #[serde(default)]
     pub seconds_per_path: f64,
 }
 
 impl Line {
-    /// Paths of one judgement.
+    /// Paths per decision.
     pub(super) fn paths(&self) -> f64 {
         self.counts.samples as f64 / self.counts.grades.max(1) as f64
     }
 
-    /// Processor time of one judgement, in seconds.
+    /// Processor time per decision in seconds.
     pub(super) fn seconds(&self) -> f64 {
         self.paths() * self.seconds_per_path
     }
 
-    /// True if what was to be found was found in 19 of 20 draws.
+    /// True if the error was found in at least 19 of 20 draws.
     pub(super) fn found(&self) -> bool {
         self.counts.grades > 0 && 20 * self.counts.biased >= 19 * self.counts.grades
     }
 }
 
-/// A file of results, a JSON object a line.
+/// A file of results, one JSON object per line.
 pub struct Results {
     path: PathBuf,
     lines: Vec<Line>,
 }
 
 impl Results {
-    /// Opens the file in a folder, which is made if it is not there.
+    /// Opens the file in a folder, which is created if it is missing.
     ///
     /// # Errors
-    /// If it is there and cannot be read.
+    /// If the folder cannot be created or the file cannot be read.
     pub fn open(folder: &Path) -> Result<Self> {
-        std::fs::create_dir_all(folder).map_err(|error| Error::file(folder, error))?;
+        create_folder(folder)?;
         let path = folder.join("resampled.jsonl");
         let text = match std::fs::read_to_string(&path) {
             Ok(text) => text,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
             Err(error) => return Err(Error::file(&path, error)),
         };
-        // A line that was cut off, or is of an older format, is a result to be computed again.
+        // A line that was cut off or is of an older format does not parse: its result is computed again.
         let mut results = Self { path, lines: Vec::new() };
         text.lines().filter_map(|line| serde_json::from_str(line).ok()).for_each(|line| results.keep(line));
         Ok(results)
     }
 
-    /// A result takes the place of an earlier one of the same, which was of fewer draws.
+    /// Adds a result, or replaces the earlier one of the same experiment, which had fewer draws.
     fn keep(&mut self, line: Line) {
         let is_same = |other: &&mut Line| {
             (&other.key, &other.variant, &other.check, other.test, other.bias)
@@ -119,20 +121,20 @@ impl Results {
         }
     }
 
-    /// The result that is there already.
-    pub fn find(&self, key: &str, variant: &str, check: &str, test: Test, bias: f64) -> Option<&Line> {
+    /// The result that is known already.
+    pub fn find(&self, key: &str, variant: &str, check: &CheckId, test: Test, bias: f64) -> Option<&Line> {
         let wanted = (key, variant, check, test, bias);
         self.lines.iter().find(|line| {
-            (line.key.as_str(), line.variant.as_str(), line.check.as_str(), line.test, line.bias) == wanted
+            (line.key.as_str(), line.variant.as_str(), &line.check, line.test, line.bias) == wanted
         })
     }
 
-    /// All results of some keys.
+    /// All results with one of these keys.
     pub fn of<'a>(&'a self, keys: &'a BTreeSet<String>) -> impl Iterator<Item = &'a Line> {
         self.lines.iter().filter(|line| keys.contains(&line.key))
     }
 
-    /// Adds a result, on the disk too.
+    /// Adds a result to the file.
     ///
     /// # Errors
     /// If it cannot be written.
@@ -143,7 +145,7 @@ impl Results {
             .append(true)
             .open(&self.path)
             .and_then(|mut file| writeln!(file, "{text}"))
-            .map_err(|error| Error::file(&self.path, error))?;
+            .map_err(|error| failed(&self.path, error))?;
         self.keep(line);
         Ok(())
     }

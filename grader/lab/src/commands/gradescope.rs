@@ -8,7 +8,7 @@ use harness::assignment::Assignment;
 use harness::workspace::Workspace;
 use verdict::error::Result;
 
-/// Pack the grader for Gradescope: a zip with setup.sh and run_autograder (for staff: the solution is in it).
+/// Pack the grader for Gradescope: a zip archive with setup.sh and run_autograder. It contains the solution
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// The archive to write
@@ -21,6 +21,7 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let bytes = handout::autograder(&workspace, &arguments.assignment.name, &arguments.out)?;
-    println!("{}: {:.1} MB, with the solution: for staff only", arguments.out.display(), bytes as f64 / 1e6);
+    let (out, megabytes) = (arguments.out.display(), bytes as f64 / 1e6);
+    println!("{out}: {megabytes:.1} MB; contains the solution, for staff only");
     Ok(ExitCode::SUCCESS)
 }

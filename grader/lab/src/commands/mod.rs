@@ -1,6 +1,7 @@
-//! The commands of the program.
+//! The commands: each reads its options, calls the rooms of the laboratory and reports.
 
 mod calibrate;
+mod compare;
 mod figures;
 mod gradescope;
 mod handout;
@@ -13,7 +14,10 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-/// Measures the grader itself, and makes what it rests on: references, figures, handouts (for staff).
+/// Measure the grader, and make references, figures, signatures and handouts (staff only)
+///
+/// Exit status: 0 = done, 1 = something is not as expected, 2 = invalid command line or input, 3 = the laboratory failed
+/// or could not write its output.
 #[derive(Parser)]
 #[command(name = "lab", version, propagate_version = true)]
 struct Arguments {
@@ -24,6 +28,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Calibrate(calibrate::Arguments),
+    Compare(compare::Arguments),
     Figures(figures::Arguments),
     Gradescope(gradescope::Arguments),
     Handout(handout::Arguments),
@@ -33,11 +38,11 @@ enum Command {
     Signatures(signatures::Arguments),
 }
 
-/// Runs the command line. The exit status is 0 if the command did its work; 1 if a variant is not as expected; 2 if the
-/// command line or an input is wrong; 3 if the laboratory itself failed.
+/// Runs the command line.
 pub fn run() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Calibrate(arguments) => calibrate::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Gradescope(arguments) => gradescope::run(&arguments),
         Command::Handout(arguments) => handout::run(&arguments),

@@ -6,32 +6,34 @@ use std::process::ExitCode;
 use indicatif::ProgressBar;
 
 use crate::mutants::{Ledger, Outcome, Record, Variant, table, variants};
+use crate::output::write_text;
 use harness::assignment::Assignment;
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
 use judge::grade::Options;
 use verdict::error::{Error, Result};
 
-/// Grade wrong and right variants of the solution, and say which mistakes are caught (for staff).
+/// Grade wrong and correct variants of the solution, and show which mistakes are caught
+///
+/// Exit status 1 if the outcome of any variant is unexpected.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Only these variants: by name, by row of the catalogue, or all that are `right` or `wrong`
+    /// Grade only these variants: by name, by row of the catalogue, or all that are `right` or `wrong`
     #[arg(long, value_name = "VARIANT|ROW|KIND")]
     only: Vec<String>,
-    /// Grade each with the seeds 1 to N
+    /// Grade each variant with the seeds 1 to N
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     seeds: u64,
     #[command(flatten)]
     assignment: Assignment,
-    /// Folder of the results; those that are there already are used [default: target/mutants]
+    /// Folder of the results; known results are used [default: target/mutants]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Variants that are graded at the same time, each with one thread [default: one for each core]
+    /// Number of variants graded at the same time, each with one thread [default: one per core]
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
 }
 
-/// Exit status 1 if anything is as nobody expected.
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let rubric = arguments.assignment.rubric(&workspace)?;
@@ -61,13 +63,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     }
 
     let records: Vec<Vec<&Record>> = all.list.iter().map(|variant| ledger.records(variant)).collect();
-    let text = table(&all, &rubric, &records);
-    // Only a table of everything is worth keeping.
-    let complete = records.iter().all(|records| !records.is_empty());
-    let file = if complete { workspace.kill_matrix() } else { folder.join("kill-matrix.md") };
-    arty::image::write_aside(&file, |writer| std::io::Write::write_all(writer, text.as_bytes()))?;
+    // Only a complete matrix replaces the committed one.
+    let is_complete = records.iter().all(|records| !records.is_empty());
+    let file = if is_complete { workspace.kill_matrix() } else { folder.join("kill-matrix.md") };
+    write_text(&file, &table(&all, &rubric, &records))?;
     eprintln!("kill matrix: {}", file.display());
-    println!("{unexpected} of {} variants are not as expected", selected.len());
+    println!("{unexpected} of {} variants have an unexpected outcome", selected.len());
     Ok(ExitCode::from(u8::from(unexpected > 0)))
 }
 

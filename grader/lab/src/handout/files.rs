@@ -1,4 +1,4 @@
-//! Which files are handed out, and under which names.
+//! The files of a handout, and their names in it.
 
 use std::path::{Path, PathBuf};
 
@@ -6,9 +6,9 @@ use super::manifests;
 use harness::workspace::Workspace;
 use verdict::error::{Error, Result};
 
-/// Files and folders that are given as they are, but for tests: these are for whoever works on framework and grader, some
-/// need the solution, and some show how a light is asked.
-const GIVEN: [&str; 17] = [
+/// Files and folders that are included, without tests: some of these need the solution, and some show how to sample a
+/// light.
+const INCLUDED: [&str; 17] = [
     ".gitattributes",
     ".gitignore",
     "LICENSE-APACHE",
@@ -28,26 +28,26 @@ const GIVEN: [&str; 17] = [
     "references",
 ];
 
-/// What of these stays with the staff, if it is there.
-const KEPT_BACK: [&str; 2] = ["scenes/hidden", "references/hidden"];
+/// Folders below these that stay with the staff.
+const EXCLUDED: [&str; 2] = ["scenes/hidden", "references/hidden"];
 
-/// Sources of the grader that are modules of tests.
+/// Test modules in files of their own.
 const TEST_FILES: [&str; 2] = ["tests.rs", "test_scenes.rs"];
 
-/// What of an assignment's folder is given; `course.yml` would name those who have longer.
+/// Included files of the assignment. `course.yml` is not: it names students with extensions.
 const OF_ASSIGNMENT: [&str; 3] = ["sheet.md", "rubric.yml", "figures"];
 
-/// What else is given if it is there: how mistakes look, and words for them.
-const IF_THERE: [&str; 2] = ["causes.yml", "signatures.json"];
+/// Files of the assignment that are included if they exist: causes of mistakes and their signatures.
+const OPTIONAL: [&str; 2] = ["causes.yml", "signatures.json"];
 
-/// What of an assignment's folder is given elsewhere, if it is there.
+/// Files of the assignment that are moved, if they exist.
 const MOVED: [(&str, &str); 3] = [
     ("handout.md", "README.md"),
     ("ci/github.yml", ".github/workflows/grade.yml"),
     ("ci/gitlab.yml", ".gitlab-ci.yml"),
 ];
 
-/// Files of Cargo's that name what is not given.
+/// Cargo's files, which name packages that are not included.
 type Rewrite = fn(&str) -> std::result::Result<String, String>;
 const REWRITTEN: [(&str, Rewrite); 12] = [
     ("Cargo.toml", manifests::workspace),
@@ -64,17 +64,17 @@ const REWRITTEN: [(&str, Rewrite); 12] = [
     ("grader/verdict/Cargo.toml", manifests::without_tests),
 ];
 
-/// All files of the handout with their contents, in the order of their paths.
-pub(super) fn given(workspace: &Workspace, assignment: &str) -> Result<Vec<(PathBuf, Vec<u8>)>> {
+/// Paths and contents of all files, sorted by path.
+pub(super) fn for_students(workspace: &Workspace, assignment: &str) -> Result<Vec<(PathBuf, Vec<u8>)>> {
     let root = workspace.root();
     let own = workspace.assignment(assignment);
     let own = own.strip_prefix(root).unwrap_or(&own).to_owned();
     let mut files = Vec::new();
-    for name in GIVEN.into_iter().map(PathBuf::from).chain(OF_ASSIGNMENT.map(|name| own.join(name))) {
+    for name in INCLUDED.into_iter().map(PathBuf::from).chain(OF_ASSIGNMENT.map(|name| own.join(name))) {
         collect(root, &name, &mut files)?;
     }
-    files.retain(|(path, _)| !KEPT_BACK.iter().any(|kept| path.starts_with(kept)));
-    for name in IF_THERE.map(|name| own.join(name)) {
+    files.retain(|(path, _)| !EXCLUDED.iter().any(|kept| path.starts_with(kept)));
+    for name in OPTIONAL.map(|name| own.join(name)) {
         if root.join(&name).is_file() {
             collect(root, &name, &mut files)?;
         }
@@ -100,7 +100,7 @@ pub(super) fn given(workspace: &Workspace, assignment: &str) -> Result<Vec<(Path
     Ok(files)
 }
 
-/// Cuts the tests off the end of a source, where they stand.
+/// Removes the test module at the end of a source.
 fn without_tests(source: &mut Vec<u8>) {
     const TESTS: &[u8] = b"\n#[cfg(test)]\nmod tests {";
     if let Some(start) = source.windows(TESTS.len()).position(|part| part == TESTS) {
@@ -108,11 +108,11 @@ fn without_tests(source: &mut Vec<u8>) {
     }
 }
 
-/// What grading takes: the same with the solution, which some checks compare with, and with what stays with the staff.
+/// The same for the autograder: with the solution, which some checks compare with, and with the scenes of the staff.
 pub(super) fn for_grading(workspace: &Workspace, assignment: &str) -> Result<Vec<(PathBuf, Vec<u8>)>> {
     let root = workspace.root();
-    let mut files = given(workspace, assignment)?;
-    // Of the files that are rewritten, those that name the solution are taken as they are.
+    let mut files = for_students(workspace, assignment)?;
+    // These name the solution: not rewritten here.
     let whole = ["Cargo.toml", "Cargo.lock", ".cargo/config.toml"].map(Path::new);
     files.retain(|(path, _)| !whole.contains(&path.as_path()));
     for name in
@@ -120,7 +120,7 @@ pub(super) fn for_grading(workspace: &Workspace, assignment: &str) -> Result<Vec
     {
         collect(root, name, &mut files)?;
     }
-    for name in KEPT_BACK.map(Path::new) {
+    for name in EXCLUDED.map(Path::new) {
         if root.join(name).is_dir() {
             collect(root, name, &mut files)?;
         }
@@ -128,10 +128,9 @@ pub(super) fn for_grading(workspace: &Workspace, assignment: &str) -> Result<Vec
     Ok(files)
 }
 
-/// Adds a file, or all files below a folder that are not hidden.
+/// Adds a file, or all files below a folder, except hidden files and test modules.
 fn collect(root: &Path, name: &Path, files: &mut Vec<(PathBuf, Vec<u8>)>) -> Result<()> {
     let path = root.join(name);
-    // Modules that are only compiled for tests.
     let is_test = name.starts_with("grader") && TEST_FILES.iter().any(|file| name.ends_with(file));
     if is_test {
         return Ok(());

@@ -1,4 +1,4 @@
-//! Gradescope's autograder: a zip with `setup.sh`, `run_autograder` and the grader with all that it needs.
+//! The autograder for Gradescope: a zip archive with `setup.sh`, `run_autograder` and the grader.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -13,18 +13,19 @@ use verdict::error::{Error, Result};
 const SETUP: &str = include_str!("gradescope/setup.sh");
 const RUN: &str = include_str!("gradescope/run_autograder");
 
-/// Packs the autograder of an assignment. Unlike a handout it has the solution: students do not see it.
+/// Packs the autograder of an assignment, and returns its size in bytes. Unlike a handout it contains the solution.
 ///
 /// # Errors
-/// If a file cannot be read, or the archive not be written.
+/// If a file cannot be read or the archive cannot be written.
 pub fn autograder(workspace: &Workspace, assignment: &str, out: &Path) -> Result<usize> {
     let files = files::for_grading(workspace, assignment)?;
     let bytes = archive(&files).map_err(|error| Error::Harness(format!("the archive: {error}")))?;
-    arty::image::write_aside(out, |writer| writer.write_all(&bytes))?;
+    arty::image::write_aside(out, |writer| writer.write_all(&bytes))
+        .map_err(|error| Error::Output(error.to_string()))?;
     Ok(bytes.len())
 }
 
-/// The same archive whenever and wherever it is made. Gradescope unpacks it at `/autograder/source`.
+/// The archive; equal files give equal bytes. Gradescope unpacks it at `/autograder/source`.
 fn archive(files: &[(PathBuf, Vec<u8>)]) -> zip::result::ZipResult<Vec<u8>> {
     let mut writer = ZipWriter::new(std::io::Cursor::new(Vec::new()));
     let options = |mode| {

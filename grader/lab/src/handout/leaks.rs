@@ -1,16 +1,16 @@
-//! Whether a text holds code of the solution.
+//! Search for code of the solution.
 //!
-//! Code is compared token by token, so that neither line breaks nor blanks hide it, and comments are searched like code.
+//! Code is compared token by token, so that whitespace does not hide it; comments are searched like code.
 
 use std::collections::HashSet;
 
 use proc_macro2::TokenStream;
 
-/// Tokens in a row that are the solution's. Fewer are found in any program that does something similar.
+/// Number of consecutive tokens that count as code of the solution. Shorter runs occur in any similar program.
 const RUN: usize = 8;
 
-/// How the framework's interface is called, as it is documented and as the framework's own code calls it: this tells
-/// nobody anything. A longer run that goes on where one of these ends is found all the same.
+/// Documented calls of the framework's interface, which reveal nothing. A run that continues beyond one of these is found
+/// all the same.
 const PHRASES: [&str; 7] = [
     "sampler: &mut Sampler) -> Rgb { let ",
     ") else { return Rgb::BLACK }; let (",
@@ -21,13 +21,13 @@ const PHRASES: [&str; 7] = [
     "); let f = bsdf.eval(wi)",
 ];
 
-/// The runs of tokens that stand in the solution's task blocks, and only there.
+/// The runs of tokens that occur in the solution's task blocks and nowhere else in it.
 #[derive(Clone, Debug)]
 pub struct Secrets {
     runs: HashSet<Vec<String>>,
 }
 
-/// A place where the solution shows through.
+/// Code of the solution in a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Leak {
     /// The line, counted from 1.
@@ -37,10 +37,10 @@ pub struct Leak {
 }
 
 impl Secrets {
-    /// Of the blocks between `// TASK` and `// END` in the solution.
+    /// The runs of the blocks between `// TASK` and `// END` in the solution.
     ///
     /// # Errors
-    /// If there are none, or they are no Rust.
+    /// If there are no blocks, or they are not Rust.
     pub fn of(solution: &str) -> Result<Self, String> {
         let (mut runs, mut outside) = (HashSet::new(), String::new());
         let mut block: Option<String> = None;

@@ -1,10 +1,10 @@
-//! Cargo's files, without what is not handed out. What stands in them otherwise, comments too, stays.
+//! Cargo's files without the packages that are not handed out. Everything else in them stays, comments included.
 
 use std::collections::BTreeSet;
 
 use toml_edit::{Array, DocumentMut, Item, Table, TomlError, value};
 
-/// The packages that stay with the staff, each with the name of its folder and of its alias.
+/// Packages that stay with the staff, and their folders. Aliases have the names of the packages.
 const KEPT_BACK: [(&str, &str); 2] = [("solution", "solution"), ("lab", "grader/lab")];
 
 fn parse(text: &str) -> Result<DocumentMut, String> {
@@ -47,8 +47,8 @@ pub(super) fn without_benches(text: &str) -> Result<String, String> {
     Ok(document.to_string())
 }
 
-/// A package's `Cargo.toml` without tests, benchmarks and examples. Tests inside its sources are switched off with
-/// them: they look at the solution, too. What they depend on stays named, or `Cargo.lock` would no longer fit.
+/// A package's `Cargo.toml` without tests, benchmarks and examples. Unit tests are disabled too, since some need the
+/// solution. Their dependencies stay, or `Cargo.lock` would no longer fit.
 pub(super) fn without_tests(text: &str) -> Result<String, String> {
     let mut document = parse(text)?;
     for key in ["bench", "example", "test"] {
@@ -67,7 +67,7 @@ pub(super) fn without_tests(text: &str) -> Result<String, String> {
     Ok(document.to_string())
 }
 
-/// `Cargo.lock`, with nothing in it that only the packages need that are not given.
+/// `Cargo.lock` without the dependencies of packages that are not included.
 pub(super) fn lock(text: &str) -> Result<String, String> {
     let mut document = parse(text)?;
     let packages = document
@@ -76,7 +76,7 @@ pub(super) fn lock(text: &str) -> Result<String, String> {
         .ok_or("there is no `[[package]]`")?;
     let text =
         |table: &Table, key: &str| table.get(key).and_then(Item::as_str).unwrap_or_default().to_owned();
-    // Packages of the workspace have no source; all else is there because one of them needs it.
+    // Packages of the workspace have no source; all others are dependencies of these.
     let mut wanted: Vec<(String, Option<String>)> = packages
         .iter()
         .filter(|table| {
@@ -110,7 +110,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_only_the_solution_needs_leaves_the_lock_file() {
+    fn dependencies_of_the_solution_alone_leave_the_lock_file() {
         let text = r#"version = 4
 [[package]]
 name = "arty"

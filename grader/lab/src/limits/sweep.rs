@@ -1,19 +1,19 @@
-//! One number taken through many decades.
+//! A quantity measured over many decades of one parameter.
 
 use serde::Serialize;
 
-/// What was measured along one axis.
+/// Measurements along one axis.
 #[derive(Clone, Debug, Serialize)]
 pub struct Sweep {
-    /// Its name, also that of its files.
+    /// Its name, and that of its files.
     pub name: &'static str,
-    /// What is done, in a sentence.
+    /// Description, the caption of the plot.
     pub about: &'static str,
-    /// What runs along x.
+    /// Label of the x axis.
     pub axis: &'static str,
-    /// What runs along y.
+    /// Label of the y axis.
     pub measure: &'static str,
-    /// What is still right.
+    /// Largest absolute value of y that is right.
     pub limit: f64,
     /// The curves.
     pub series: Vec<Series>,
@@ -24,34 +24,34 @@ pub struct Sweep {
 pub struct Series {
     /// Its name.
     pub name: String,
-    /// From small x to great.
+    /// Ascending in x.
     pub points: Vec<Point>,
 }
 
 /// One measurement.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Point {
-    /// Where.
+    /// The parameter.
     pub x: f64,
-    /// What was measured; not finite if nothing was.
+    /// The measured value; not finite if there is none.
     pub y: f64,
-    /// What noise alone would explain of it.
+    /// The part of y that noise alone would explain.
     pub noise: f64,
     /// Samples that were NaN, infinite or negative.
     pub anomalies: u64,
-    /// What was said about it, such as a warning of the loader.
+    /// A remark, such as a warning of the loader.
     pub note: String,
 }
 
 impl Point {
-    /// True if it is right within the limit and noise.
+    /// True if it is right within limit and noise.
     pub fn is_right(&self, limit: f64) -> bool {
         self.anomalies == 0 && self.y.abs() <= limit + self.noise
     }
 }
 
 impl Series {
-    /// The longest run of x in which all is right; `None` if there is none.
+    /// The longest range of x in which every point is right; `None` if there is none.
     pub fn right_range(&self, limit: f64) -> Option<[f64; 2]> {
         let mut best: Option<(usize, [f64; 2])> = None;
         let mut start = 0;

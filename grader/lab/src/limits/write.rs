@@ -1,43 +1,36 @@
-//! Tables and plots of what was measured.
+//! Tables and plots of the measurements.
 
 use std::fmt::Write as _;
-use std::io::Write as _;
-use std::path::Path;
 
 use plotters::prelude::*;
 
-use super::sweep::{Series, Sweep};
+use super::sweep::{Point, Series, Sweep};
 use judge::extreme::measure::Finding;
 use verdict::error::{Error, Result};
 
-/// The least value that a plot shows: zero has no place on a logarithmic axis.
-const LEAST: f64 = 1e-9;
+/// Smallest value in a plot: zero has no place on a logarithmic axis.
+const MIN: f64 = 1e-9;
 
-/// The greatest value that a plot of errors shows; what is not a number stands there too.
-const MOST: f64 = 1e2;
+/// Largest value in a plot; NaN and infinity are drawn there.
+const MAX: f64 = 1e2;
 
-/// Writes a text file, whole or not at all.
+/// A sweep as CSV: one row per measurement.
 ///
 /// # Errors
-/// If it cannot be written.
-pub fn text(path: &Path, content: &str) -> Result<()> {
-    Ok(arty::image::write_aside(path, |writer| writer.write_all(content.as_bytes()))?)
-}
-
-/// A sweep as CSV: a line for each measurement.
-pub fn csv(sweep: &Sweep) -> String {
-    let mut lines = format!("series,{},{},noise,anomalies,note\n", sweep.axis, sweep.measure);
+/// Never for text: only if a row cannot be encoded.
+pub fn csv(sweep: &Sweep) -> Result<String> {
+    let internal = |error: &dyn std::fmt::Display| Error::Harness(format!("{} as CSV: {error}", sweep.name));
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut write = |row: [&str; 6]| writer.write_record(row).map_err(|error| internal(&error));
+    write(["series", sweep.axis, sweep.measure, "noise", "anomalies", "note"])?;
     for Series { name, points } in &sweep.series {
-        for point in points {
-            let note = point.note.replace('"', "'");
-            let _ = writeln!(
-                lines,
-                "\"{name}\",{:e},{:.3e},{:.3e},{},\"{note}\"",
-                point.x, point.y, point.noise, point.anomalies
-            );
+        for Point { x, y, noise, anomalies, note } in points {
+            let (x, y, noise) = (format!("{x:e}"), format!("{y:.3e}"), format!("{noise:.3e}"));
+            write([name, &x, &y, &noise, &anomalies.to_string(), note])?;
         }
     }
-    lines
+    let bytes = writer.into_inner().map_err(|error| internal(&error))?;
+    String::from_utf8(bytes).map_err(|error| internal(&error))
 }
 
 /// A sweep as a plot, both axes logarithmic.
@@ -52,7 +45,7 @@ pub fn svg(sweep: &Sweep) -> Result<String> {
 }
 
 fn draw(sweep: &Sweep, image: &mut String) -> std::result::Result<(), Box<dyn std::error::Error>> {
-    let shown = |y: f64| if y.is_finite() { y.abs().clamp(LEAST, MOST) } else { MOST };
+    let shown = |y: f64| if y.is_finite() { y.abs().clamp(MIN, MAX) } else { MAX };
     let xs = || sweep.series.iter().flat_map(|series| &series.points).map(|point| point.x);
     let (first, last) = xs().fold((f64::INFINITY, 0.0f64), |(first, last), x| (first.min(x), last.max(x)));
     let area = SVGBackend::with_string(image, (760, 420)).into_drawing_area();
@@ -62,7 +55,7 @@ fn draw(sweep: &Sweep, image: &mut String) -> std::result::Result<(), Box<dyn st
         .margin(10)
         .x_label_area_size(40)
         .y_label_area_size(60)
-        .build_cartesian_2d((first..last.max(10.0 * first)).log_scale(), (LEAST..MOST).log_scale())?;
+        .build_cartesian_2d((first..last.max(10.0 * first)).log_scale(), (MIN..MAX).log_scale())?;
     let power = |value: &f64| format!("{value:.0e}");
     chart
         .configure_mesh()
@@ -79,7 +72,7 @@ fn draw(sweep: &Sweep, image: &mut String) -> std::result::Result<(), Box<dyn st
             .draw_series(LineSeries::new(points, color.stroke_width(2)))?
             .label(series.name.as_str())
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], color.stroke_width(2)));
-        // A cross where samples were no radiance.
+        // A cross where samples are not radiance.
         let broken = series.points.iter().filter(|point| point.anomalies > 0 || !point.y.is_finite());
         chart.draw_series(broken.map(|point| Cross::new((point.x, shown(point.y)), 4, color)))?;
     }
@@ -88,13 +81,13 @@ fn draw(sweep: &Sweep, image: &mut String) -> std::result::Result<(), Box<dyn st
     Ok(())
 }
 
-/// Everything as Markdown.
+/// Everything as Markdown tables.
 pub fn markdown(findings: &[Finding], sweeps: &[Sweep], command: &str) -> String {
     let mut text = format!(
-        "# Limits of the framework\n\nMade by `{command}`; do not edit. Errors are relative; times are this machine's.\n\n\
-         ## How far a number can go\n\nA sweep is right where the error is below its limit and what noise explains, and no \
-         sample is NaN, infinite or negative. `broken` counts measurements beyond that range; what happens there stands in \
-         the CSV beside each plot.\n\n| sweep | curve | measured | right | limit | broken | first warning of the loader \
+        "# Numerical range of the renderer\n\nGenerated by `{command}`; do not edit. Errors are relative; times depend on the \
+         machine.\n\n## Range\n\nA measurement is right if its error is within the limit plus noise, and no sample is NaN, \
+         infinite or negative. `wrong` counts the other measurements; the CSV file beside each plot has all of \
+         them.\n\n| sweep | curve | measured range | right | limit | wrong | first warning of the loader \
          |\n|---|---|---|---|---:|---:|---|\n"
     );
     for sweep in sweeps.iter().filter(|sweep| sweep.limit.is_finite()) {
@@ -104,7 +97,7 @@ pub fn markdown(findings: &[Finding], sweeps: &[Sweep], command: &str) -> String
                 .right_range(sweep.limit)
                 .map_or("nowhere".to_owned(), |[from, to]| format!("{from:.0e} to {to:.0e}"));
             let broken = series.points.iter().filter(|point| !point.is_right(sweep.limit)).count();
-            let warned = |point: &&super::sweep::Point| !point.note.is_empty() && point.x >= 1.0;
+            let warned = |point: &&Point| !point.note.is_empty() && point.x >= 1.0;
             let warning = series
                 .points
                 .iter()
@@ -122,7 +115,7 @@ pub fn markdown(findings: &[Finding], sweeps: &[Sweep], command: &str) -> String
         }
     }
     text +=
-        "\n## What size costs\n\n| sweep | curve | from | to | growth: cost ∝ x^ |\n|---|---|---|---|---:|\n";
+        "\n## Cost\n\n| sweep | curve | first | last | exponent k in cost ∝ x^k |\n|---|---|---|---|---:|\n";
     for sweep in sweeps.iter().filter(|sweep| sweep.limit.is_infinite()) {
         for series in &sweep.series {
             let Some((first, last)) = series.points.first().zip(series.points.last()) else { continue };
@@ -139,8 +132,8 @@ pub fn markdown(findings: &[Finding], sweeps: &[Sweep], command: &str) -> String
             );
         }
     }
-    text += "\n## The extreme scenes\n\n`resolution` is the relative error that the test would have seen.\n\n| scene | \
-             technique | should be | is | error | resolution | NaN, inf | negative | |\n|---|---|---:|---:|---:|---:|---:|---:|---|\n";
+    text += "\n## Extreme scenes\n\n`detectable` is the smallest relative error that would have been found.\n\n| scene | \
+             technique | expected | measured | error | detectable | NaN or infinite | negative | |\n|---|---|---:|---:|---:|---:|---:|---:|---|\n";
     for finding in findings {
         let Finding { truth, measured, allowed, .. } = finding;
         let _ = writeln!(
@@ -159,7 +152,7 @@ pub fn markdown(findings: &[Finding], sweeps: &[Sweep], command: &str) -> String
     text
 }
 
-/// The exponent of the cost over the upper half of the sweep, where what is constant no longer matters.
+/// Exponent of the cost over the upper half of the sweep, where constant costs no longer matter.
 fn growth(series: &Series) -> f64 {
     let half = &series.points[series.points.len() / 2..];
     match (half.first(), half.last()) {
@@ -172,7 +165,6 @@ fn growth(series: &Series) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::sweep::Point;
     use super::*;
 
     #[test]
@@ -186,8 +178,9 @@ mod tests {
             vec![Series { name: "a".into(), points }, Series { name: "empty".into(), points: Vec::new() }];
         let sweep = Sweep { name: "a", about: "b", axis: "x", measure: "y", limit: 1e-3, series };
         assert!(svg(&sweep).expect("it is drawn").contains("</svg>"));
-        assert_eq!(csv(&sweep).lines().count(), 6);
-        assert!(csv(&sweep).contains("\"'a'\""));
+        let table = csv(&sweep).expect("it is text");
+        assert_eq!(table.lines().count(), 6);
+        assert!(table.contains("\"\"\"a\"\"\""), "{table}");
         let text = markdown(&[], &[sweep], "command");
         assert!(text.contains("| 1e-60 to 1e-30 |"), "{text}");
     }

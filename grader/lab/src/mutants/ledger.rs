@@ -1,4 +1,4 @@
-//! Results of grading variants, kept so that nothing is computed twice.
+//! Results of grading variants, kept on disk so that no variant is graded twice.
 
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -9,55 +9,56 @@ use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIter
 use serde::{Deserialize, Serialize};
 
 use super::Variant;
+use crate::output::{create_folder, failed};
 use harness::tree_hash::{hash_judging, hash_tree};
 use harness::workspace::Workspace;
 use judge::grade::{Grader, Options};
+use verdict::check::Verdict;
 use verdict::error::{Error, Result};
-use verdict::report::{Report, Verdict};
+use verdict::report::Report;
 use verdict::submission::Submission;
 
-/// What one grade of one variant has found: a line of the ledger.
+/// The result of one grade of one variant: a line of the ledger.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Record {
-    /// Hash of all that the result depends on, but for the seed.
+    /// Hash of everything that the result depends on, except the seed.
     pub key: String,
-    /// The variant's name.
+    /// Name of the variant.
     pub variant: String,
-    /// The seed of the grade.
+    /// Seed of the grade.
     pub seed: u64,
-    /// For each automatic task the points earned and those it is worth.
+    /// Points earned and maximum points, by task. Tasks that are graded by hand are missing.
     pub tasks: BTreeMap<String, [f64; 2]>,
-    /// For each check, named by task and check, its verdict.
+    /// Verdict by task and check, separated by a space.
     pub checks: BTreeMap<String, Verdict>,
-    /// What rustc said, if it does not compile.
+    /// Messages of rustc, if it does not compile.
     pub build_failure: Option<String>,
-    /// How long compiling and running took.
+    /// Seconds of compiling and running.
     pub seconds: f64,
 }
 
-/// A file of results, a JSON object a line.
+/// A file of results, one JSON object per line, beside a folder of reports.
 pub struct Ledger {
     path: PathBuf,
     records: Vec<Record>,
-    /// Hash of all that is the same for all variants.
+    /// Hash of everything that is the same for all variants.
     base: blake3::Hash,
 }
 
 impl Ledger {
-    /// Opens the ledger in a folder, which is made if it is not there.
+    /// Opens the ledger in a folder, which is created if it is missing.
     ///
     /// # Errors
-    /// If the ledger, or anything that the results depend on, cannot be read.
+    /// If the folder cannot be created, or the ledger or an input of the grades cannot be read.
     pub fn open(folder: &Path, workspace: &Workspace, assignment: &str) -> Result<Self> {
-        let reports = folder.join("reports");
-        std::fs::create_dir_all(&reports).map_err(|error| Error::file(&reports, error))?;
-        let path = folder.join("results.jsonl");
+        create_folder(&folder.join(REPORTS))?;
+        let path = folder.join(RESULTS);
         let text = match std::fs::read_to_string(&path) {
             Ok(text) => text,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
             Err(error) => return Err(Error::file(&path, error)),
         };
-        // A line that was cut off, or is of an older format, is a result to be computed again.
+        // A line that was cut off or is of an older format does not parse: that variant is graded again.
         let records = text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
         Ok(Self { path, records, base: hash_of_inputs(workspace, assignment)? })
     }
@@ -68,11 +69,11 @@ impl Ledger {
         self.records.iter().filter(|record| record.key == key && record.variant == variant.id).collect()
     }
 
-    /// Grades variants, unless the result is there already: `jobs` at a time, each with one thread, so that none waits for
-    /// another. `on_record` is told of each result as it is written; no new one is begun once `stop` says so.
+    /// Grades variants whose results are missing: `options.threads` at a time, each with one thread. Calls `on_record` for
+    /// each result once it is written; begins no further grade once `stop` returns true.
     ///
     /// # Errors
-    /// What is not the variants' doing.
+    /// If the harness fails, or a result cannot be written. Faults of a variant are results.
     pub fn grade(
         &mut self,
         workspace: &Workspace,
@@ -89,7 +90,7 @@ impl Ledger {
             return Ok(());
         }
         let grader = Grader::new(workspace, &Options { threads: 1, ..options.clone() })?;
-        let trouble = |error: std::io::Error| Error::file(&self.path, error);
+        let trouble = |error: std::io::Error| failed(&self.path, error);
         let file = std::fs::OpenOptions::new().create(true).append(true).open(&self.path).map_err(trouble)?;
         let written = Mutex::new((file, Vec::new()));
         let grade_one = |variant: &&Variant| -> Result<()> {
@@ -100,7 +101,7 @@ impl Ledger {
             let report = grader.grade(&Submission { path, source: variant.source.clone() }, |_| {})?;
             let record = record(self.key(variant), variant, options.seed, &report);
             let file = self.report_file(&record);
-            arty::image::write_aside(&file, |writer| serde_json::to_writer(writer, &report))?;
+            report.save(&file)?;
             let line = serde_json::to_string(&record).map_err(|error| Error::Harness(error.to_string()))?;
             on_record(&record);
             let mut written = written.lock().unwrap_or_else(PoisonError::into_inner);
@@ -116,17 +117,16 @@ impl Ledger {
         outcome
     }
 
-    /// The whole report of a result.
+    /// The report of a result.
     ///
     /// # Errors
-    /// If it is not there.
+    /// If it cannot be read.
     pub fn report(&self, record: &Record) -> Result<Report> {
         Report::load(&self.report_file(record))
     }
 
     fn report_file(&self, record: &Record) -> PathBuf {
-        let name = format!("{}-{}-{}.json", record.variant, record.seed, &record.key[..8]);
-        self.path.with_file_name("reports").join(name)
+        self.path.with_file_name(REPORTS).join(report_name(&record.variant, record.seed, &record.key))
     }
 
     fn key(&self, variant: &Variant) -> String {
@@ -137,6 +137,17 @@ impl Ledger {
     }
 }
 
+/// Name of the file of results in a ledger's folder.
+pub(crate) const RESULTS: &str = "results.jsonl";
+
+/// Name of the folder of reports in a ledger's folder.
+pub(crate) const REPORTS: &str = "reports";
+
+/// Name of the report of one grade.
+pub(crate) fn report_name(variant: &str, seed: u64, key: &str) -> String {
+    format!("{variant}-{seed}-{}.json", key.get(..8).unwrap_or(key))
+}
+
 fn record(key: String, variant: &Variant, seed: u64, report: &Report) -> Record {
     let tasks = report.tasks.iter();
     let checks = report.checks.iter();
@@ -145,13 +156,17 @@ fn record(key: String, variant: &Variant, seed: u64, report: &Report) -> Record 
         variant: variant.id.clone(),
         seed,
         tasks: tasks.filter_map(|task| Some((task.id.clone(), [task.points?, task.max]))).collect(),
-        checks: checks.map(|check| (format!("{} {}", check.task, check.id), check.verdict)).collect(),
+        checks: checks.map(|check| (format!("{} {}", check.task, check.id), check.verdict.clone())).collect(),
         build_failure: report.submission.build_failure.as_ref().map(|failure| failure.messages.clone()),
         seconds: report.cost.build + report.cost.run,
     }
 }
 
-/// Over the rubric, scenes and references, the framework and all of the grader but this command.
+/// Hash of everything that a grade depends on beside the submission and the seed: the crates that can change a verdict,
+/// scenes, references and the rubric.
+///
+/// # Errors
+/// If a file cannot be read.
 pub fn hash_of_inputs(workspace: &Workspace, assignment: &str) -> Result<blake3::Hash> {
     let root = workspace.root();
     let mut hasher = blake3::Hasher::new();

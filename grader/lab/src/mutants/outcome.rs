@@ -1,22 +1,22 @@
-//! What became of a variant, against what was expected of it.
+//! The grades of a variant compared with the expectation.
 
 use super::{Kind, Record, Variant};
 
-/// The results of one variant over all seeds, compared with what was expected.
+/// The grades of one variant over all seeds, compared with the expectation.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outcome {
-    /// Tasks that it should cost, but with some seed did not.
+    /// Tasks that should lose points, and do not with every seed.
     pub missed: Vec<String>,
-    /// Tasks that it should not cost, but with some seed did.
+    /// Tasks that should keep all points, and do not with every seed.
     pub blamed: Vec<String>,
-    /// What nobody expected: differences that the variant's notes do not explain, and notes that explain nothing.
+    /// Differences that `missed_because` does not announce, and announcements that are out of date.
     pub unexpected: Vec<String>,
-    /// False if there is no result to compare.
+    /// False if there is no grade to compare.
     pub graded: bool,
 }
 
 impl Outcome {
-    /// Compares.
+    /// Compares the grades of a variant with its expectation.
     pub fn new(variant: &Variant, records: &[&Record]) -> Self {
         let mut outcome = Self { graded: !records.is_empty(), ..Self::default() };
         if !outcome.graded {
@@ -53,12 +53,12 @@ impl Outcome {
             (true, false) => self.unexpected.push(format!("{task} {what} ({against} of {of} seeds)")),
             (false, true) => self
                 .unexpected
-                .push(format!("{task} is as it should be: its `missed_because` is out of date ({of} seeds)")),
+                .push(format!("{task} is as expected: remove its `missed_because` ({of} seeds)")),
             _ => {}
         }
     }
 
-    /// In a word or two.
+    /// Summary in a few words.
     pub fn word(&self, kind: Kind) -> String {
         if !self.graded {
             return "not graded".to_owned();

@@ -1,4 +1,4 @@
-//! Variants of the solution, as `grader/variants/` describes them.
+//! Variants of the solution, read from `grader/variants/`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -9,17 +9,17 @@ use harness::workspace::Workspace;
 use verdict::error::{Error, Result};
 use verdict::rubric::Rubric;
 
-/// Right or wrong.
+/// Whether a variant is correct.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// It has a mistake, and must lose points for it.
+    /// It has a mistake and must lose points.
     Wrong,
-    /// It is right, and must earn all points.
+    /// It is correct and must earn all points.
     Right,
 }
 
 impl Kind {
-    /// Its name on command lines.
+    /// Name on the command line and of the file.
     pub fn name(self) -> &'static str {
         match self {
             Self::Wrong => "wrong",
@@ -28,14 +28,14 @@ impl Kind {
     }
 }
 
-/// A submission of which it is known what it should earn.
+/// A submission with a known expectation.
 #[derive(Clone, Debug)]
 pub struct Variant {
-    /// What tells it from all others.
+    /// Unique name.
     pub id: String,
-    /// Right or wrong.
+    /// Whether it is correct.
     pub kind: Kind,
-    /// Rows of the catalogue of mistakes.
+    /// Rows in the catalogue of mistakes.
     pub rows: Vec<String>,
     /// What it does.
     pub title: String,
@@ -43,9 +43,9 @@ pub struct Variant {
     pub costs: Vec<String>,
     /// Tasks that must keep all of their points.
     pub keeps: Vec<String>,
-    /// Tasks for which the checks do not yet do what they should, and why.
+    /// Tasks whose outcome differs from the expectation, and the reason.
     pub missed_because: BTreeMap<String, String>,
-    /// The text of its `render_pt.rs`.
+    /// Source text.
     pub source: String,
 }
 
@@ -55,16 +55,16 @@ pub struct Variant {
 pub struct NotPossible {
     /// Its row.
     pub row: String,
-    /// Why not.
+    /// Reason.
     pub why: String,
 }
 
-/// All of them.
+/// All variants.
 #[derive(Clone, Debug)]
 pub struct Variants {
-    /// The wrong ones, then the right ones, in the order of their files.
+    /// The wrong ones, then the correct ones, in the order of their files.
     pub list: Vec<Variant>,
-    /// What is not among them.
+    /// Mistakes without a variant.
     pub not_possible: Vec<NotPossible>,
 }
 
@@ -83,7 +83,7 @@ struct Entry {
     title: String,
     #[serde(default)]
     rows: Vec<String>,
-    /// Of use to readers only.
+    /// For readers: true if it was seen in a real submission.
     #[serde(default, rename = "seen")]
     _seen: bool,
     #[serde(default)]
@@ -106,7 +106,7 @@ struct Replace {
 /// Reads all variants.
 ///
 /// # Errors
-/// The first thing in their files that does not fit the solution or the rubric.
+/// The first entry that does not fit the solution or the rubric.
 pub fn variants(workspace: &Workspace, rubric: &Rubric) -> Result<Variants> {
     let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| Error::file(path, error));
     let solution = read(&workspace.solution_file())?.replace("\r\n", "\n");
@@ -123,7 +123,7 @@ pub fn variants(workspace: &Workspace, rubric: &Rubric) -> Result<Variants> {
             let id = entry.id.clone();
             let blame = |message: String| Error::file(&path, format!("variant {id}: {message}"));
             if !ids.insert(id.clone()) {
-                return Err(blame("there is another of this name".to_owned()));
+                return Err(blame("another variant has this name".to_owned()));
             }
             let source = match (&entry.file, &entry.replace) {
                 (Some(name), None) => read(&folder.join(name))?,
@@ -140,7 +140,7 @@ fn variant(entry: Entry, kind: Kind, source: String, tasks: &[&str]) -> std::res
     let Entry { id, title, rows, costs, mut keeps, missed_because, .. } = entry;
     match kind {
         Kind::Right if !(costs.is_empty() && keeps.is_empty()) => {
-            return Err("a right variant costs no task and keeps all; leave both out".to_owned());
+            return Err("a correct variant keeps all points: leave out `costs` and `keeps`".to_owned());
         }
         Kind::Right => keeps = tasks.iter().map(|&task| task.to_owned()).collect(),
         Kind::Wrong if costs.is_empty() => return Err("`costs` names at least one task".to_owned()),
@@ -151,28 +151,28 @@ fn variant(entry: Entry, kind: Kind, source: String, tasks: &[&str]) -> std::res
         return Err(format!("no task `{unknown}` is graded automatically; there are {}", tasks.join(", ")));
     }
     if let Some(both) = costs.iter().find(|task| keeps.contains(task)) {
-        return Err(format!("task {both} stands in `costs` and in `keeps`"));
+        return Err(format!("task {both} is in both `costs` and `keeps`"));
     }
     if let Some(task) = missed_because.keys().find(|task| !named.clone().any(|other| other == *task)) {
-        return Err(format!("`missed_because` names task {task}, of which nothing is expected"));
+        return Err(format!("`missed_because` names task {task}, which is in neither `costs` nor `keeps`"));
     }
     Ok(Variant { id, kind, rows, title, costs, keeps, missed_because, source })
 }
 
-/// Replaces all at once, each at the one place in the original where it stands.
+/// Applies all replacements to the original text, in which each pattern must occur exactly once.
 fn replace(solution: &str, list: &[Replace]) -> std::result::Result<String, String> {
     let mut places = Vec::new();
     for Replace { from, to } in list {
         let mut found = solution.match_indices(from.as_str());
         match (found.next(), found.next()) {
             (Some((start, _)), None) if !from.is_empty() => places.push((start, from.len(), to)),
-            (None, _) => return Err(format!("the solution does not have `{from}`")),
-            _ => return Err(format!("the solution has `{from}` more than once")),
+            (None, _) => return Err(format!("the solution does not contain `{from}`")),
+            _ => return Err(format!("the solution contains `{from}` more than once")),
         }
     }
     places.sort_by_key(|&(start, _, _)| start);
     if let Some(pair) = places.windows(2).find(|pair| pair[0].0 + pair[0].1 > pair[1].0) {
-        return Err(format!("two replacements overlap: that by `{}`", pair[1].2));
+        return Err(format!("two replacements overlap, the second one by `{}`", pair[1].2));
     }
     let mut text = solution.to_owned();
     for (start, length, to) in places.into_iter().rev() {
@@ -197,9 +197,9 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_there_exactly_once_is_refused() {
+    fn a_pattern_that_does_not_occur_exactly_once_is_refused() {
         for (list, expected) in [
-            (vec![("d", "e")], "does not have `d`"),
+            (vec![("d", "e")], "does not contain `d`"),
             (vec![("b", "e")], "more than once"),
             (vec![("", "e")], "more than once"),
             (vec![("a = b", "e"), ("b + b", "f")], "overlap"),

@@ -1,6 +1,6 @@
 //! Writing of OpenEXR files.
 
-use std::io::{Seek, Write};
+use std::io::{Cursor, Write};
 use std::path::Path;
 
 use ::exr::block::UncompressedBlock;
@@ -19,7 +19,7 @@ use crate::image::write_aside;
 const MAX_NAME_LENGTH: usize = 255;
 
 impl ExrFile {
-    /// Writes the file with lossless compression.
+    /// Writes the file with lossless compression. The same content gives the same bytes.
     ///
     /// # Errors
     ///
@@ -29,7 +29,11 @@ impl ExrFile {
         let header = self.header(precision).map_err(|reason| {
             Diagnostic::about(path, format!("cannot be written as an OpenEXR file: {reason}"))
         })?;
-        write_aside(path, |file| self.encode(header, file))
+        let mut bytes = self.encode(header).map_err(|reason| {
+            Diagnostic::about(path, format!("cannot be written as an OpenEXR file: {reason}"))
+        })?;
+        sort_attributes(&mut bytes);
+        write_aside(path, |file| file.write_all(&bytes))
     }
 
     /// The header.
@@ -84,10 +88,11 @@ impl ExrFile {
         Ok(attributes)
     }
 
-    fn encode(&self, header: Header, file: impl Write + Seek) -> Result<(), Error> {
+    fn encode(&self, header: Header) -> Result<Vec<u8>, Error> {
+        let mut file = Cursor::new(Vec::new());
         let channels = header.channels.clone();
         let samples: Vec<&[f32]> = self.channels.values().map(Vec::as_slice).collect();
-        ::exr::block::write(file, [header].into_iter().collect(), true, |meta, writer| {
+        ::exr::block::write(&mut file, [header].into_iter().collect(), true, |meta, writer| {
             let blocks = meta.collect_ordered_block_data(|block| {
                 UncompressedBlock::collect_block_data_from_lines(&channels, block, |line| {
                     let place = line.location;
@@ -102,11 +107,40 @@ impl ExrFile {
             });
             // The progress callback is unused; the crate offers no other way to compress through a reference.
             writer.on_progress(|_| ()).compress_all_blocks_parallel(&meta, blocks)
-        })
+        })?;
+        Ok(file.into_inner())
     }
 }
 
-/// Rounds to 16 bits. Finite values stay finite, since an infinity would look like an error of the renderer.
+/// Bytes before the attributes: magic number and version.
+const ATTRIBUTES: usize = 8;
+
+/// Sorts the attributes of a file of one part by name. The crate keeps them in a hash table, whose order differs between
+/// two files of the same content. No offset changes: the header keeps its length.
+fn sort_attributes(bytes: &mut [u8]) {
+    let mut attributes = Vec::new();
+    let mut start = ATTRIBUTES;
+    while let Some(end) = end_of_attribute(bytes, start) {
+        attributes.push(bytes[start..end].to_vec());
+        start = end;
+    }
+    // Each begins with its name and a zero byte, so that the order of the bytes is that of the names.
+    attributes.sort();
+    let sorted = attributes.concat();
+    bytes[ATTRIBUTES..ATTRIBUTES + sorted.len()].copy_from_slice(&sorted);
+}
+
+/// Where an attribute (name, type, size, value) ends; None at the end of the list, which an empty name marks.
+fn end_of_attribute(bytes: &[u8], start: usize) -> Option<usize> {
+    let end_of_text = |from: usize| Some(from + bytes.get(from..)?.iter().position(|&byte| byte == 0)? + 1);
+    let name = end_of_text(start).filter(|&end| end > start + 1)?;
+    let size = end_of_text(name)?;
+    let value = bytes.get(size..size + 4)?.try_into().map(u32::from_le_bytes).ok()?;
+    let end = size + 4 + value as usize;
+    (end <= bytes.len()).then_some(end)
+}
+
+/// Rounds to 16 bits; finite values stay finite, since an infinity would look like a fault of the renderer.
 fn to_half(value: f32) -> f16 {
     let limit = f16::MAX.to_f32();
     f16::from_f32(if value.is_finite() { value.clamp(-limit, limit) } else { value })

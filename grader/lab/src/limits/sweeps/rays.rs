@@ -1,4 +1,4 @@
-//! Rays inside of a closed mesh: how many get out of it, and how many hit what they start from.
+//! Rays inside a closed mesh: how many leak, and how many hit the face that they start from.
 
 use arty::math::{Vec3, direction_and_distance};
 use arty::ray::Ray;
@@ -8,29 +8,29 @@ use glam::DVec3;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use crate::limits::sweep::{Point, Series, Sweep, decades};
-use judge::extreme::build::{add, changed, empty, grey, hollow_ball};
+use judge::scenes::{add, changed, empty, grey, hollow_ball};
 
-/// Paths in each measurement.
+/// Paths per measurement.
 const PATHS: u64 = 20_000;
 
-/// Hits of each path.
+/// Bounces per path.
 const HITS: usize = 8;
 
-/// The mesh: 2048 triangles.
+/// Subdivisions of the mesh: 2048 triangles.
 const SUBDIVISIONS: u32 = 4;
 
-/// What went wrong.
+/// Rays, and what went wrong with them.
 #[derive(Clone, Copy, Debug, Default)]
 struct Counts {
-    /// Rays that start inside and hit nothing.
+    /// Rays that start inside and miss.
     leaks: u64,
-    /// Rays that hit the flat face again from which they start.
+    /// Rays that hit the face that they start from.
     acne: u64,
-    /// Points of the ball's inside that are taken not to see each other.
+    /// Shadow rays inside the sphere that are occluded.
     shadows: u64,
-    /// Points on both sides of the ball that are taken to see each other.
+    /// Shadow rays through the sphere that are not occluded.
     holes: u64,
-    /// Rays that were traced.
+    /// Rays traced.
     rays: u64,
 }
 
@@ -47,11 +47,11 @@ impl Counts {
 }
 
 /// Leaks and acne against the size of the mesh.
-pub fn scale_of_rays(seed: u64) -> Sweep {
+pub(super) fn scale_of_rays(seed: u64) -> Sweep {
     sweep(
         "scale-of-rays",
-        "Rays inside of a closed ball of 2,048 triangles, at all sizes.",
-        "scale of the ball",
+        "Rays inside a closed sphere of 2,048 triangles, of all sizes.",
+        "scale of the sphere",
         decades(-38, 38),
         |base, scale| changed(base, scale, DVec3::ZERO, 1.0),
         seed,
@@ -59,10 +59,10 @@ pub fn scale_of_rays(seed: u64) -> Sweep {
 }
 
 /// Leaks and acne against the distance from the origin.
-pub fn offset_of_rays(seed: u64) -> Sweep {
+pub(super) fn offset_of_rays(seed: u64) -> Sweep {
     sweep(
         "offset-of-rays",
-        "Rays inside of the same ball, moved away from the origin.",
+        "Rays inside the same sphere, moved away from the origin.",
         "distance from the origin in radii",
         decades(-1, 9),
         |base, distance| changed(base, 1.0, 2.0 * distance * DVec3::new(0.6, 0.48, 0.64), 1.0),
@@ -80,7 +80,7 @@ fn sweep(
 ) -> Sweep {
     let mut base = empty();
     add(&mut base, &hollow_ball(2.0, SUBDIVISIONS), grey(0.5, 0.0));
-    // The camera's eye stands for the middle of the ball.
+    // The camera marks the centre of the sphere.
     base.camera.eye = Vec3::ZERO;
     type Kind = (&'static str, fn(&Counts) -> u64);
     let kinds: [Kind; 4] = [
@@ -102,7 +102,7 @@ fn sweep(
             series.points.push(Point { x, y, note: scene.warnings().join("; "), ..Point::default() });
         }
     }
-    Sweep { name, about, axis, measure: "share of rays", limit: 0.0, series: series.into() }
+    Sweep { name, about, axis, measure: "fraction of rays", limit: 0.0, series: series.into() }
 }
 
 /// A uniformly distributed direction.
@@ -119,10 +119,10 @@ fn follow(scene: &Scene, middle: Vec3, seed: u64, path: u64) -> Counts {
     let mut ray = Ray::new(middle, unit(&mut sampler));
     let Some(mut hit) = scene.intersect(&ray) else { return Counts { leaks: 1, rays: 1, ..counts } };
     for _ in 0..HITS {
-        // Inwards, as far from the face as the walls of a ball are from each other.
+        // Into the sphere.
         let wi = unit(&mut sampler);
         let wi = if wi.dot(hit.geometric_normal) < 0.0 { -wi } else { wi };
-        // A ray along the face is as near to it as rounding.
+        // A grazing ray is closer to the face than rounding errors.
         if wi.dot(hit.geometric_normal) < 1e-3 {
             continue;
         }
@@ -132,7 +132,7 @@ fn follow(scene: &Scene, middle: Vec3, seed: u64, path: u64) -> Counts {
             counts.leaks += 1;
             return counts;
         };
-        // Faces of a ball that is convex have normals of their own.
+        // No two faces of a convex sphere have the same normal.
         if next.geometric_normal == hit.geometric_normal {
             counts.acne += 1;
             return counts;
@@ -140,7 +140,7 @@ fn follow(scene: &Scene, middle: Vec3, seed: u64, path: u64) -> Counts {
         counts.shadows += u64::from(scene.occluded(&hit, next.point));
         let (outwards, distance) = direction_and_distance(hit.point, next.point);
         let beyond = next.point + 0.5 * distance * outwards;
-        // A point that coordinates can hardly tell from the face is taken to lie on it: see `Scene::occluded`.
+        // A point within rounding errors of the face counts as lying on it: see `Scene::occluded`.
         let height = 0.5 * distance * outwards.dot(next.geometric_normal).abs();
         let clear = height > 8.0 * f32::EPSILON * beyond.abs().max_element();
         counts.holes += u64::from(clear && !scene.occluded(&hit, beyond));
@@ -161,7 +161,7 @@ mod tests {
                 assert_eq!(point.y, 0.0, "{} at {:e}", series.name, point.x);
             }
         }
-        // The test can fail: at a billion radii all coordinates of the ball are the same.
+        // The test can fail: at a billion radii all vertices round to the same point.
         assert!(rays.series[0].points.last().is_some_and(|point| point.y > 0.5));
     }
 }

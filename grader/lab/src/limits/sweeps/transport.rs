@@ -1,92 +1,68 @@
-//! Pictures with closed forms, rendered with the solution.
+//! Pictures with closed forms.
 
 use std::f64::consts::PI;
 
 use arty::integrator::{Settings, Technique};
-use arty::math::Rgb;
-use arty::scene::{LightDescription, Scene, SceneDescription, Specular};
+use arty::math::{Rgb, Vec3};
+use arty::scene::{Scene, SceneDescription, Specular};
 use glam::DVec3;
 
+use super::Context;
 use crate::limits::sweep::{Point, Series, Sweep, decades};
-use harness::build::SubmissionProgram;
-use harness::host_process::HostProcess;
-use judge::extreme::build::{add, camera, ceiling, changed, empty, floor, grey, hollow_ball, rectangle};
-use judge::extreme::measure::{Effort, measure};
-use verdict::error::{Error, Result};
+use judge::scenes::{add, camera, ceiling, changed, empty, floor, grey, hollow_ball, point_light, rectangle};
+use verdict::error::Result;
 
-/// What is still right: a thousandth, which is what checks of means tolerate.
+/// Largest relative error that is right.
 const LIMIT: f64 = 1e-3;
 
 const ERROR: &str = "relative error";
 
-/// A program that renders the points of sweeps.
-pub struct Renderer<'a> {
-    program: &'a SubmissionProgram,
-    seed: u64,
-    effort: Effort,
+/// Measures one scene against its true mean.
+fn point(
+    context: &Context<'_>,
+    x: f64,
+    scene: &SceneDescription,
+    settings: Settings,
+    truth: f64,
+) -> Result<Point> {
+    let measured = context.measure(scene, settings, context.effort)?;
+    Ok(Point {
+        x,
+        y: measured.error(truth),
+        noise: measured.noise(truth),
+        anomalies: measured.non_finite + measured.negative,
+        note: Scene::new(scene).warnings().join("; "),
+    })
 }
 
-impl<'a> Renderer<'a> {
-    /// Renders with a program, from a seed.
-    pub fn new(program: &'a SubmissionProgram, seed: u64, effort: Effort) -> Self {
-        Self { program, seed, effort }
-    }
-
-    /// Measures one scene against what it should show.
-    fn point(
-        &self,
-        x: f64,
-        scene: &SceneDescription,
-        technique: Technique,
-        bounces: u32,
-        truth: f64,
-    ) -> Result<Point> {
-        // What the scene's own builder says of it.
-        let note = Scene::new(scene).warnings().join("; ");
-        let settings = Settings { technique, max_bounces: bounces };
-        let trouble = |fault| Error::Harness(format!("the solution at {x:e}: {fault}"));
-        let mut process = HostProcess::start(self.program, rayon::current_num_threads())?;
-        let scene = process.load(scene)?.map_err(trouble)?;
-        let measured =
-            measure(&mut process, scene, settings, [8, 8], self.effort, self.seed)?.map_err(trouble)?;
-        Ok(Point {
-            x,
-            y: measured.error(truth),
-            noise: measured.noise(truth),
-            anomalies: measured.non_finite + measured.negative,
-            note,
-        })
-    }
-
-    /// A curve for each technique.
-    fn series(
-        &self,
-        techniques: &[Technique],
-        bounces: u32,
-        xs: impl Iterator<Item = f64> + Clone,
-        scene: impl Fn(f64) -> (SceneDescription, f64),
-    ) -> Result<Vec<Series>> {
-        let curve = |&technique: &Technique| {
-            let point = |x| {
-                let (scene, truth) = scene(x);
-                self.point(x, &scene, technique, bounces, truth)
-            };
-            Ok(Series { name: technique.to_string(), points: xs.clone().map(point).collect::<Result<_>>()? })
+/// One curve for each technique.
+fn curves(
+    context: &Context<'_>,
+    techniques: &[Technique],
+    xs: impl Iterator<Item = f64> + Clone,
+    scene: impl Fn(f64) -> (SceneDescription, f64),
+) -> Result<Vec<Series>> {
+    let curve = |&technique: &Technique| {
+        let settings = Settings { technique, max_bounces: 1 };
+        let point = |x| {
+            let (scene, truth) = scene(x);
+            point(context, x, &scene, settings, truth)
         };
-        techniques.iter().map(curve).collect()
-    }
+        Ok(Series { name: technique.to_string(), points: xs.clone().map(point).collect::<Result<_>>()? })
+    };
+    techniques.iter().map(curve).collect()
 }
 
-/// What a floor of reflectance ½ shows below the middle of a parallel square.
+/// Radiance of a floor of reflectance ½ below the centre of a parallel square light.
 ///
-/// E = 4 · L · X/√(1+X²) · atan(X/√(1+X²)), X half the side divided by the height (Howell's catalogue, B-4).
+/// E = 4 · L · X/√(1+X²) · atan(X/√(1+X²)), with X = side / (2 · height) (Howell's catalogue, B-4).
 fn below_square(height: f64, side: f64, radiance: f64) -> f64 {
     let x = 0.5 * side / height;
     let share = x / x.hypot(1.0);
     0.5 / PI * 4.0 * radiance * share * share.atan()
 }
 
-/// A floor and a square light of the given height, side and radiance above it.
+/// A floor below a square light of this height, side and radiance, and the radiance that the camera sees.
 fn square_over_floor(height: f64, side: f64, radiance: f64) -> (SceneDescription, f64) {
     let mut scene = empty();
     let size = 16.0 * height.max(1.0);
@@ -99,46 +75,46 @@ fn square_over_floor(height: f64, side: f64, radiance: f64) -> (SceneDescription
 }
 
 /// Size of the whole scene.
-pub fn scale(renderer: &Renderer<'_>) -> Result<Sweep> {
+pub(super) fn scale(context: &Context<'_>) -> Result<Sweep> {
     let (base, truth) = square_over_floor(2.0, 1.0, 10.0);
     Ok(Sweep {
         name: "scale",
-        about: "A floor under a square light, everything made larger or smaller.",
+        about: "A floor below a square light, scaled as a whole.",
         axis: "scale of the scene",
         measure: ERROR,
         limit: LIMIT,
-        series: renderer.series(&[Technique::Nee, Technique::Mis], 1, decades(-24, 24), |scale| {
+        series: curves(context, &[Technique::Nee, Technique::Mis], decades(-24, 24), |scale| {
             (changed(&base, scale, DVec3::ZERO, 1.0), truth)
         })?,
     })
 }
 
 /// Distance of the whole scene from the origin.
-pub fn offset(renderer: &Renderer<'_>) -> Result<Sweep> {
+pub(super) fn offset(context: &Context<'_>) -> Result<Sweep> {
     let (mut base, truth) = square_over_floor(2.0, 1.0, 10.0);
-    // Coordinates that are rounded must not decide where the camera looks.
+    // A wide enough view that rounded coordinates do not decide where the camera looks.
     base.camera = camera(DVec3::new(0.3, 1.0, 0.5), DVec3::ZERO, 1.0);
     Ok(Sweep {
         name: "offset",
-        about: "The same scene, 16 units large, moved away from the origin.",
+        about: "The same scene, 16 units wide, moved away from the origin.",
         axis: "distance from the origin in units",
         measure: ERROR,
         limit: LIMIT,
-        series: renderer.series(&[Technique::Nee, Technique::Mis], 1, decades(0, 10), |distance| {
+        series: curves(context, &[Technique::Nee, Technique::Mis], decades(0, 10), |distance| {
             (changed(&base, 1.0, distance * DVec3::new(0.6, 0.48, 0.64), 1.0), truth)
         })?,
     })
 }
 
-/// Height of a light above what it lights.
-pub fn light_distance(renderer: &Renderer<'_>) -> Result<Sweep> {
+/// Distance of a light from what it illuminates.
+pub(super) fn light_distance(context: &Context<'_>) -> Result<Sweep> {
     let scene = |height: f64| square_over_floor(height, 1.0, height.max(1.0).powi(2));
-    let mut series = renderer.series(&[Technique::Mis], 1, decades(-20, 18), scene)?;
-    series.extend(renderer.series(&[Technique::Nee], 1, decades(0, 18), scene)?);
+    let mut series = curves(context, &[Technique::Mis], decades(-20, 18), scene)?;
+    series.extend(curves(context, &[Technique::Nee], decades(0, 18), scene)?);
     Ok(Sweep {
         name: "light-distance",
-        about: "A square light of side 1, very near and very far. Below 1, `nee` has a variance that grows without bounds.",
-        axis: "distance of the light in its sides",
+        about: "A square light of side 1, very near to very far. Below 1, the variance of `nee` grows without bound.",
+        axis: "distance of the light / its side",
         measure: ERROR,
         limit: LIMIT,
         series,
@@ -146,14 +122,14 @@ pub fn light_distance(renderer: &Renderer<'_>) -> Result<Sweep> {
 }
 
 /// Side of a light.
-pub fn light_size(renderer: &Renderer<'_>) -> Result<Sweep> {
+pub(super) fn light_size(context: &Context<'_>) -> Result<Sweep> {
     let scene = |side: f64| square_over_floor(1.0, side, side.min(1.0).powi(-2));
-    let mut series = renderer.series(&[Technique::Mis], 1, decades(-22, 18), scene)?;
-    series.extend(renderer.series(&[Technique::Nee], 1, decades(-22, 0), scene)?);
+    let mut series = curves(context, &[Technique::Mis], decades(-22, 18), scene)?;
+    series.extend(curves(context, &[Technique::Nee], decades(-22, 0), scene)?);
     Ok(Sweep {
         name: "light-size",
-        about: "A square light at the distance 1, tiny and huge. Above 1, `nee` has a variance that grows with the area.",
-        axis: "side of the light in its distances",
+        about: "A square light at distance 1, tiny to huge. Above 1, the variance of `nee` grows with the area.",
+        axis: "side of the light / its distance",
         measure: ERROR,
         limit: LIMIT,
         series,
@@ -161,20 +137,20 @@ pub fn light_size(renderer: &Renderer<'_>) -> Result<Sweep> {
 }
 
 /// Radiance of a light.
-pub fn radiance(renderer: &Renderer<'_>) -> Result<Sweep> {
+pub(super) fn radiance(context: &Context<'_>) -> Result<Sweep> {
     Ok(Sweep {
         name: "radiance",
-        about: "A floor under a square light, dim and bright.",
+        about: "A floor below a square light, very dim to very bright.",
         axis: "radiance of the light",
         measure: ERROR,
         limit: LIMIT,
-        series: renderer.series(&[Technique::Nee, Technique::Mis], 1, decades(-44, 38), |radiance| {
+        series: curves(context, &[Technique::Nee, Technique::Mis], decades(-44, 38), |radiance| {
             square_over_floor(2.0, 1.0, radiance)
         })?,
     })
 }
 
-/// Even light from all around.
+/// Uniform light from all directions.
 fn surroundings() -> SceneDescription {
     let mut scene = empty();
     add(&mut scene, &hollow_ball(2.0, 3), grey(0.0, 1.0));
@@ -182,7 +158,7 @@ fn surroundings() -> SceneDescription {
 }
 
 /// Exponent of a Phong lobe.
-pub fn exponent(renderer: &Renderer<'_>) -> Result<Sweep> {
+pub(super) fn exponent(context: &Context<'_>) -> Result<Sweep> {
     let mut base = surroundings();
     let lobe = |exponent: f64| Specular::Phong { reflectance: Rgb::gray(0.5), exponent: exponent as f32 };
     let plate = rectangle(DVec3::new(-0.5, -0.5, 0.0), DVec3::X, DVec3::Y);
@@ -190,11 +166,11 @@ pub fn exponent(renderer: &Renderer<'_>) -> Result<Sweep> {
     base.camera = camera(DVec3::Z, DVec3::ZERO, 0.01);
     Ok(Sweep {
         name: "exponent",
-        about: "A Phong lobe in even light, seen along its normal: it reflects ks.",
+        about: "A Phong lobe in uniform light, seen along the normal: it reflects ks.",
         axis: "exponent",
         measure: ERROR,
         limit: LIMIT,
-        series: renderer.series(&[Technique::Bsdf, Technique::Mis], 1, decades(0, 38), |exponent| {
+        series: curves(context, &[Technique::Bsdf, Technique::Mis], decades(0, 38), |exponent| {
             let mut scene = base.clone();
             scene.materials[1].specular = lobe(exponent);
             (scene, 0.5)
@@ -203,18 +179,18 @@ pub fn exponent(renderer: &Renderer<'_>) -> Result<Sweep> {
 }
 
 /// Index of refraction.
-pub fn glass_index(renderer: &Renderer<'_>) -> Result<Sweep> {
+pub(super) fn glass_index(context: &Context<'_>) -> Result<Sweep> {
     let mut base = surroundings();
     let plate = rectangle(DVec3::new(-0.5, -0.5, 0.0), DVec3::X, DVec3::Y);
     add(&mut base, &plate, grey(0.0, 0.0));
     base.camera = camera(DVec3::Z, DVec3::ZERO, 0.01);
     Ok(Sweep {
         name: "glass-index",
-        about: "A surface of glass in even light, seen along its normal: R + (1 − R) / n², R = ((n − 1) / (n + 1))².",
+        about: "A glass surface in uniform light, seen along the normal: R + (1 − R) / n², R = ((n − 1) / (n + 1))².",
         axis: "index of refraction minus 1",
         measure: ERROR,
         limit: LIMIT,
-        series: renderer.series(&[Technique::Bsdf, Technique::Mis], 1, decades(-9, 19), |excess| {
+        series: curves(context, &[Technique::Bsdf, Technique::Mis], decades(-9, 19), |excess| {
             let mut scene = base.clone();
             let index = (1.0 + excess) as f32;
             let (reflectance, transmittance) = (Rgb::WHITE, Rgb::WHITE);
@@ -226,7 +202,7 @@ pub fn glass_index(renderer: &Renderer<'_>) -> Result<Sweep> {
     })
 }
 
-/// A grey ball that glows inside, with this many triangles, all of them lights.
+/// The inside of a grey sphere of radius 2 that emits radiance 1, subdivided n times; every triangle is a light.
 pub(super) fn furnace(subdivisions: u32, reflectance: f32) -> SceneDescription {
     let mut scene = empty();
     add(&mut scene, &hollow_ball(2.0, subdivisions), grey(reflectance, 1.0));
@@ -234,14 +210,11 @@ pub(super) fn furnace(subdivisions: u32, reflectance: f32) -> SceneDescription {
     scene
 }
 
-/// A floor below this many point lights that share one power.
+/// A floor below this many point lights, which share a fixed power.
 pub(super) fn floor_below_points(count: usize) -> SceneDescription {
     let mut scene = empty();
     add(&mut scene, &floor(0.0, 16.0), grey(0.5, 0.0));
-    let light = LightDescription::Point {
-        position: arty::math::Vec3::new(0.0, 2.0, 0.0),
-        power: Rgb::gray((16.0 * PI / count as f64) as f32),
-    };
-    scene.lights = vec![light; count];
+    let power = Rgb::gray((16.0 * PI / count as f64) as f32);
+    scene.lights = vec![point_light(2.0 * Vec3::Y, power); count];
     scene
 }
