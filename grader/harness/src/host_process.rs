@@ -1,13 +1,12 @@
 //! The process that runs a submission, seen from the grader.
 
 mod expected;
-mod pipe;
 
 use std::borrow::Cow;
-use std::io::ErrorKind;
-use std::process::{Child, Command, Stdio};
+use std::io::{BufReader, ErrorKind, Write};
+use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
 use arty::integrator::Settings;
@@ -24,7 +23,6 @@ use crate::build::SubmissionProgram;
 use crate::job::JobError;
 use crate::sandbox::{self, Account, Layers, Profile};
 use expected::Expected;
-use pipe::{describe, receive, send, spawn};
 
 /// A running submission.
 ///
@@ -281,6 +279,70 @@ impl HostProcess {
         sandbox::end(&mut self.child);
         Ok(Fault::Crash(self.child.wait().map_or_else(|error| error.to_string(), describe)))
     }
+}
+
+/// Starts a program, which may have been written a moment ago.
+///
+/// While another thread is between fork and exec, its child has all files open that this process had, and one that is
+/// open for writing cannot be run.
+fn spawn(command: &mut Command) -> std::io::Result<Child> {
+    for _ in 0..100 {
+        match command.spawn() {
+            Err(error) if error.kind() == ErrorKind::ExecutableFileBusy => {
+                std::thread::sleep(Duration::from_millis(5));
+            }
+            other => return other,
+        }
+    }
+    command.spawn()
+}
+
+/// How a process ended, and what that may mean.
+fn describe(status: ExitStatus) -> String {
+    #[cfg(unix)]
+    if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
+        use rustix::process::Signal;
+        let is = |other: Signal| signal == other.as_raw();
+        let why = if is(Signal::ABORT) {
+            ": out of memory, stack overflow, or it aborted itself"
+        } else if is(Signal::SEGV) {
+            ": stack overflow, or memory that is not its own"
+        } else {
+            ""
+        };
+        return format!("{status}{why}");
+    }
+    status.to_string()
+}
+
+/// Has a thread write messages, so that a process that does not read them costs nobody else any time.
+fn send(mut pipe: ChildStdin) -> Sender<Vec<u8>> {
+    let (sender, messages) = channel::<Vec<u8>>();
+    std::thread::spawn(move || {
+        for message in messages {
+            if pipe.write_all(&message).is_err() {
+                break;
+            }
+        }
+    });
+    sender
+}
+
+/// Has a thread read answers, each when it is expected and no earlier: what nobody asked for stays in the pipe.
+fn receive(pipe: ChildStdout) -> (Sender<Expected>, Receiver<std::io::Result<Option<Response>>>) {
+    let (sender, responses) = channel();
+    let (expected, queue) = channel::<Expected>();
+    std::thread::spawn(move || {
+        let mut answers = BufReader::new(pipe);
+        for expected in queue {
+            let message = expected.read(&mut answers);
+            let last = !matches!(message, Ok(Some(_)));
+            if sender.send(message).is_err() || last {
+                break;
+            }
+        }
+    });
+    (expected, responses)
 }
 
 impl Drop for HostProcess {
