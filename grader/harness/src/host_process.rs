@@ -1,4 +1,4 @@
-//! The process that runs a submission, seen from the grader.
+//! The grader's side of the process that runs a submission.
 
 mod expected;
 
@@ -24,39 +24,39 @@ use crate::job::JobError;
 use crate::sandbox::{self, Account, Layers, Profile};
 use expected::Expected;
 
-/// A running submission.
+/// A running submission that answers jobs.
 ///
-/// On Linux it ends with the thread that has started it.
+/// On Linux it is killed when the thread that started it ends.
 pub struct HostProcess {
     child: Child,
     requests: Sender<Vec<u8>>,
-    /// What the next answer can be: none is read before it is asked for.
+    /// Sends the reader the limits of the next answer; no answer is read before it is expected.
     expected: Sender<Expected>,
     responses: Receiver<std::io::Result<Option<Response>>>,
     scenes: u32,
     job_time: Duration,
-    /// What all jobs together may take, and what is left of it.
+    /// Time for all jobs together, and how much of it is left.
     all_jobs: Option<[Duration; 2]>,
-    /// In which scene and with which settings the first part of a job was in time, the last that was.
+    /// Scene and settings of the last job whose first part was in time.
     tried: Option<(u32, Settings)>,
     layers: Layers,
-    /// Whether it was ended because it took too long.
+    /// True if it was ended because it took too long.
     ended: bool,
-    /// What it did instead of starting, if it did not: its answer to all jobs.
+    /// Why it did not start; the answer to all jobs.
     failed: Option<Fault>,
-    /// Processes that the machine had ended for want of memory when this one started.
+    /// Out-of-memory kills on this machine before the process was started.
     kills: Option<u64>,
-    /// Nobody else has its user id as long as it runs.
+    /// User id that no other submission has while it runs.
     _account: Arc<Account>,
 }
 
-/// A job is tried with this part of it, to see whether it will ever end …
+/// One in so many batches of a job is tried first, to find programs that never finish …
 const FIRST_PART: usize = 8;
 
-/// … within this part of the time: a third more than its share.
+/// … within one in so many parts of the time: a third more than its share.
 const FIRST_PART_TIME: u32 = 6;
 
-/// The answer to a job.
+/// Answer to a job.
 type Answer<T> = std::result::Result<T, JobError>;
 
 impl HostProcess {
@@ -116,28 +116,27 @@ impl HostProcess {
         Ok(process)
     }
 
-    /// What the program did instead of starting, if it did not. Its jobs end with the same.
+    /// Why the program did not start; `None` if it did. All of its jobs end with the same fault.
     ///
-    /// Whether programs start at all on this machine is tried with an empty submission before: so this is a fault of the
-    /// submission.
+    /// The [`trial`](crate::trial) has shown that programs start on this machine, so this is a fault of the submission.
     pub fn fault(&self) -> Option<&Fault> {
         self.failed.as_ref()
     }
 
-    /// The same process, which may take no longer than this for all that it is asked.
+    /// Limits the time for all further jobs together.
     #[must_use]
     pub fn within(mut self, time: Duration) -> Self {
         self.all_jobs = Some([time; 2]);
         self
     }
 
-    /// How the process is confined: what the grader set before the program was started, and the kernel confirmed. The
-    /// process itself has no say in it.
+    /// Sandbox layers of the process: those that the grader set before the program started and that the kernel confirms.
+    /// The process itself has no influence on them.
     pub fn layers(&self) -> Layers {
         self.layers
     }
 
-    /// Sends a scene, and gives the number by which jobs refer to it.
+    /// Sends a scene and returns the number by which jobs refer to it.
     pub fn load(&mut self, scene: &SceneDescription) -> Answer<u32> {
         match self.ask(&Request::Scene(Cow::Borrowed(scene)), self.job_time)? {
             Response::SceneReady => {
@@ -148,10 +147,10 @@ impl HostProcess {
         }
     }
 
-    /// Has batches rendered. All means are finite and there are as many as asked for.
+    /// Renders batches. There are as many as the job asks for, and all means are finite.
     ///
-    /// Unless this went well just before with this scene and these settings, an eighth of the batches goes first: nobody
-    /// waits for the others if even these take too long. Jobs of fewer than eight batches are not divided.
+    /// Unless the last job had the same scene and settings, an eighth of the batches is rendered first: if even these take
+    /// too long, the rest is not tried. Jobs of fewer than eight batches are not divided.
     pub fn render(&mut self, job: &RenderJob) -> Answer<Rendered> {
         let place = Some((job.scene, job.settings));
         let first = if self.tried == place { 0 } else { job.seeds.len() / FIRST_PART };
@@ -177,9 +176,9 @@ impl HostProcess {
         }
     }
 
-    /// Follows paths through scripted scenes: for each scene as many as asked for. Their radiance may be anything.
+    /// Traces paths through scripted scenes, as many per scene as the job asks for. Their radiance is not checked.
     ///
-    /// An eighth of them is followed before, to see whether that ends.
+    /// An eighth of them is traced first, to find programs that never finish.
     pub fn probe(&mut self, job: &ProbeJob) -> Answer<Vec<Vec<ProbedPath>>> {
         let first = job.samples / FIRST_PART as u64;
         if first > 0 {
@@ -203,7 +202,7 @@ impl HostProcess {
         }
     }
 
-    /// Follows one path again, with every call written down. Its numbers may be anything; its words are cleaned.
+    /// Traces one path again and records every call. Numbers are not checked; texts are made harmless.
     pub fn replay(&mut self, job: ReplayJob) -> Answer<Replayed> {
         self.require_scene(job.scene)?;
         match self.ask(&Request::Replay(job), self.job_time)? {
@@ -212,7 +211,7 @@ impl HostProcess {
         }
     }
 
-    /// The grader's own mistakes are found here: what the process says of a job is a matter of the submission.
+    /// Checks a job for mistakes of the grader's own, so that a rejection by the process is a fault of the submission.
     fn require_scene(&self, scene: u32) -> Result<()> {
         if scene < self.scenes {
             return Ok(());
@@ -242,8 +241,8 @@ impl HostProcess {
         })
     }
 
-    /// What the process says next, in time. If it had less than half of that time on a processor, because the machine
-    /// had other things to do, it is given `most`.
+    /// Waits for the next message for `time`, or up to `max` if the process had less than half of `time` on a processor
+    /// because the machine was busy.
     fn answer(&mut self, time: Duration, max: Duration) -> Answer<Response> {
         let before = sandbox::processor_time(&self.child);
         let (mut time, mut said) = (time, self.responses.recv_timeout(time));
@@ -267,7 +266,7 @@ impl HostProcess {
         }
     }
 
-    /// How the process ended by itself.
+    /// The fault of a process that has ended by itself.
     fn crash(&mut self) -> Result<Fault> {
         // The pipe may close a moment before the process is gone.
         std::thread::sleep(Duration::from_millis(20));
@@ -281,10 +280,10 @@ impl HostProcess {
     }
 }
 
-/// Starts a program, which may have been written a moment ago.
+/// Starts a program whose file may have been written a moment ago.
 ///
-/// While another thread is between fork and exec, its child has all files open that this process had, and one that is
-/// open for writing cannot be run.
+/// While another thread is between fork and exec, its child holds all open files of this process, and a file that is
+/// open for writing cannot be executed: then starting is tried again.
 fn spawn(command: &mut Command) -> std::io::Result<Child> {
     for _ in 0..100 {
         match command.spawn() {
@@ -297,7 +296,7 @@ fn spawn(command: &mut Command) -> std::io::Result<Child> {
     command.spawn()
 }
 
-/// How a process ended, and what that may mean.
+/// Exit status of a process, and what it may mean.
 fn describe(status: ExitStatus) -> String {
     #[cfg(unix)]
     if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
@@ -315,7 +314,7 @@ fn describe(status: ExitStatus) -> String {
     status.to_string()
 }
 
-/// Has a thread write messages, so that a process that does not read them costs nobody else any time.
+/// Starts a thread that writes messages, so that a process that does not read them blocks nothing else.
 fn send(mut pipe: ChildStdin) -> Sender<Vec<u8>> {
     let (sender, messages) = channel::<Vec<u8>>();
     std::thread::spawn(move || {
@@ -328,7 +327,7 @@ fn send(mut pipe: ChildStdin) -> Sender<Vec<u8>> {
     sender
 }
 
-/// Has a thread read answers, each when it is expected and no earlier: what nobody asked for stays in the pipe.
+/// Starts a thread that reads each answer when it is expected. Anything else stays in the pipe.
 fn receive(pipe: ChildStdout) -> (Sender<Expected>, Receiver<std::io::Result<Option<Response>>>) {
     let (sender, responses) = channel();
     let (expected, queue) = channel::<Expected>();
@@ -352,7 +351,7 @@ impl Drop for HostProcess {
     }
 }
 
-/// The same error, where only the first part of a job was asked for, within this time.
+/// Turns the timeout of the first part of a job, which had this much time, into [`Fault::TooSlow`].
 fn of_first_part(error: JobError, time: Duration) -> JobError {
     match error {
         JobError::Submission(Fault::Timeout(seconds)) if seconds == time.as_secs_f64() => {
@@ -379,7 +378,7 @@ fn unexpected(response: Response) -> JobError {
     }
 }
 
-/// Words of a process that a person will see: clean, and no more than anyone will read.
+/// A text of a process, made harmless and shortened for people.
 fn short(words: &str) -> String {
     let words = clean(words).replace('\n', " ");
     match words.char_indices().nth(LONGEST_WORDS) {
@@ -388,7 +387,7 @@ fn short(words: &str) -> String {
     }
 }
 
-/// Characters of a text that should not be there at all.
+/// Maximum number of characters of a text that no process should send.
 const LONGEST_WORDS: usize = 200;
 
 fn clean_words(mut path: Replayed) -> Replayed {

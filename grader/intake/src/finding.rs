@@ -1,50 +1,49 @@
-//! What can be said of a submission before it is compiled.
+//! Findings about a submission before it is compiled.
 
 use verdict::submission::{FILE_NAME, IntakeFinding};
 
 use super::limits;
 use verdict::text::harmless;
 
-/// Why a submission is not graded. Names of files in it are printed as they are, but for characters that would steer a
-/// terminal.
+/// Why a submission is not graded. Names of files are printed without control characters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Refusal {
-    /// `missing-file`: there is no source in it, but maybe other files, of which some are named.
+    /// `missing-file`: it contains no source. Names some of the other files in it.
     MissingFile(Vec<String>),
-    /// `several-candidates`: there are several sources that are not the same.
+    /// `several-candidates`: it contains several sources that differ.
     SeveralCandidates(Vec<String>),
-    /// `too-large`: a source or an archive is larger than any that is meant seriously.
+    /// `too-large`: a source or an archive exceeds its [limit](crate::limits). Name, and size in bytes.
     TooLarge(String, u64),
-    /// `not-source`: the file has the right name, but is something else.
+    /// `not-source`: the file has the right name but another format.
     NotSource(&'static str),
-    /// `empty`: there is nothing in the source.
+    /// `empty`: the source is empty.
     Empty,
-    /// `encoding`: it says that it is UTF-16, and is not.
+    /// `encoding`: it is marked as UTF-16 but is not.
     Encoding,
-    /// `nul-bytes`: no text has these.
+    /// `nul-bytes`: it contains NUL bytes.
     NulBytes,
-    /// `link`: the source is a link to somewhere else.
+    /// `link`: the source is a link.
     Link(String),
-    /// `outside-path`: the source's name in the archive leads out of the archive.
+    /// `outside-path`: the source's path leads out of its archive.
     OutsidePath(String),
-    /// `bomb`: it unpacks to more than any submission has.
+    /// `bomb`: it unpacks to more than the [limits](crate::limits) allow.
     Bomb(String),
-    /// `nested-archive`: an archive in an archive in an archive.
+    /// `nested-archive`: an archive inside an archive inside an archive.
     NestedArchive(String),
-    /// `unsupported-archive`: of a kind that is not read.
+    /// `unsupported-archive`: an archive of another format.
     UnsupportedArchive(String),
-    /// `encrypted`: a password is needed.
+    /// `encrypted`: an archive with a password.
     Encrypted(String),
-    /// `broken-archive`: it cannot be read to its end.
+    /// `broken-archive`: an archive that cannot be read to its end.
     BrokenArchive(String, String),
-    /// `git`: the repository has no commit that can be read.
+    /// `git`: the repository has no readable commit.
     Git(String),
-    /// `unreadable`: the machine does not let the grader read it.
+    /// `unreadable`: the operating system refuses to read it.
     Unreadable(String, String),
 }
 
 impl Refusal {
-    /// The code, for tables and scripts.
+    /// Code for tables and scripts.
     pub fn code(&self) -> &'static str {
         match self {
             Self::MissingFile(_) => "missing-file",
@@ -120,34 +119,33 @@ impl std::fmt::Display for Refusal {
     }
 }
 
-/// What is odd about a submission that is graded all the same.
+/// Anything odd about a submission that does not prevent grading.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Note {
-    /// `byte-order-mark`: one at the start was removed.
+    /// `byte-order-mark`: a byte order mark was removed.
     ByteOrderMark,
-    /// `utf-16`: it was turned into UTF-8.
+    /// `utf-16`: it was converted from UTF-16.
     Utf16,
-    /// `windows-1252`: it is not UTF-8, and was read as Windows-1252, of which Latin-1 is a part; the first line that
-    /// this matters for.
+    /// `windows-1252`: it is not UTF-8 and was read as Windows-1252. The first line that is not UTF-8, counted from 1.
     Windows1252(usize),
-    /// `line-ends`: those of another system were turned into `\n`.
+    /// `line-ends`: line ends of another system were replaced by `\n`.
     LineEnds,
-    /// `copies`: there are several that are the same.
+    /// `copies`: it contains several equal sources.
     Copies(Vec<String>),
     /// `other-name`: the only source has another name.
     OtherName(String),
-    /// `starter-too`: an untouched starting file lies beside it, and was passed over.
+    /// `starter-too`: it also contains the unchanged starting file, which was skipped.
     StarterToo(String),
-    /// `untouched`: it is the starting file.
+    /// `untouched`: the source is the unchanged starting file.
     Untouched,
-    /// `uncommitted`: the file on disk is not that of the last commit, which counts.
+    /// `uncommitted`: the file on disk differs from the last commit, which is graded.
     Uncommitted(String),
-    /// `passed-over`: something in it could not be read, and did not have to be.
+    /// `passed-over`: something in it could not be read but was not needed.
     PassedOver(String),
 }
 
 impl Note {
-    /// The code, for tables and scripts.
+    /// Code for tables and scripts.
     pub fn code(&self) -> &'static str {
         match self {
             Self::ByteOrderMark => "byte-order-mark",

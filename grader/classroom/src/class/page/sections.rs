@@ -1,4 +1,4 @@
-//! What the page of a class says beside its table.
+//! The sections of the class's page besides its table.
 
 use maud::{Markup, PreEscaped, html};
 
@@ -8,10 +8,10 @@ use super::table::{link, name};
 use crate::class::gradebook::{Row, State};
 use present::page::plots::{Bars, bars};
 
-/// How many submissions stand in a list of the slowest.
+/// Length of the lists of the slowest and of the most efficient submissions.
 const LISTED: usize = 5;
 
-/// Bars of the distribution of points.
+/// Number of bars in the distribution of points.
 const BARS: usize = 14;
 
 pub(super) fn header(page: &ClassPage<'_>) -> Markup {
@@ -35,22 +35,22 @@ pub(super) fn header(page: &ClassPage<'_>) -> Markup {
     }
 }
 
-/// Points that a task gave on average, and how they are distributed.
+/// Average points of each task, and the distribution of points.
 pub(super) fn points(page: &ClassPage<'_>) -> Markup {
     let automatic = |row: &Row| -> Option<f64> {
         let tasks = page.rubric.tasks.iter().filter(|task| !task.manual);
         tasks.map(|task| row.tasks.get(&task.id).copied().flatten()).sum()
     };
-    let most: f64 = page.rubric.tasks.iter().filter(|task| !task.manual).map(|task| task.points).sum();
+    let max: f64 = page.rubric.tasks.iter().filter(|task| !task.manual).map(|task| task.points).sum();
     let points: Vec<f64> = page.rows.iter().filter_map(automatic).collect();
     let mut counts = [0; BARS];
     for value in &points {
-        counts[((value / most * BARS as f64) as usize).min(BARS - 1)] += 1;
+        counts[((value / max * BARS as f64) as usize).min(BARS - 1)] += 1;
     }
     let plot = bars(&Bars {
         label: "distribution of points",
         axis: "points of the tasks that are graded automatically",
-        range: (0.0, most),
+        range: (0.0, max),
         counts: &counts,
         expected: None,
     });
@@ -78,7 +78,7 @@ pub(super) fn points(page: &ClassPage<'_>) -> Markup {
     }
 }
 
-/// The checks that the fewest pass.
+/// Checks with the lowest pass rates.
 pub(super) fn hard(page: &ClassPage<'_>, digests: &Digests) -> Markup {
     let mut checks: Vec<(&str, Rate)> =
         digests.checks.iter().map(|(check, rate)| (check.as_str(), *rate)).collect();
@@ -112,7 +112,7 @@ pub(super) fn hard(page: &ClassPage<'_>, digests: &Digests) -> Markup {
     }
 }
 
-/// Who made the same mistake.
+/// Groups of submissions with the same mistake.
 pub(super) fn alike(page: &ClassPage<'_>, digests: &Digests) -> Markup {
     html! {
         @if !digests.alike.is_empty() {
@@ -133,7 +133,7 @@ pub(super) fn alike(page: &ClassPage<'_>, digests: &Digests) -> Markup {
     }
 }
 
-/// A long list of checks, folded.
+/// A list of checks, folded if it is long.
 fn long(what: &str) -> Markup {
     let parts: Vec<&str> = what.split(", ").collect();
     html! {
@@ -147,7 +147,7 @@ fn who(row: &Row, pages: bool) -> Markup {
     html! { @if pages { a href=(link(row, "report-tutor.html")) { (row.key) } } @else { (row.key) } }
 }
 
-/// The slowest, and those that need least time for a given noise.
+/// The slowest submissions, and the most efficient ones.
 pub(super) fn speed(page: &ClassPage<'_>, digests: &Digests) -> Markup {
     let sorted = |value: &dyn Fn(usize) -> Option<f64>| {
         let mut list: Vec<(usize, f64)> =
@@ -177,7 +177,7 @@ pub(super) fn speed(page: &ClassPage<'_>, digests: &Digests) -> Markup {
     }
 }
 
-/// What a person has still to do.
+/// Submissions that still need a mark.
 pub(super) fn to_mark(page: &ClassPage<'_>) -> Markup {
     html! {
         @for task in page.rubric.tasks.iter().filter(|task| task.manual) {
@@ -186,7 +186,7 @@ pub(super) fn to_mark(page: &ClassPage<'_>) -> Markup {
             h2 { "To be marked: " (task.id) " " (task.title) }
             @if missing.is_empty() { p { "nothing is left" } } @else {
                 p { (missing.len()) " submissions have no mark yet. "
-                    code { "cargo grader mark HAND-IN " (task.id) " POINTS --comment=\"…\" --out=" (page.out.display()) }
+                    code { "cargo grader mark SUBMISSION " (task.id) " POINTS --comment=\"…\" --out=" (page.out.display()) }
                     ", then " code { "--resume" } "." }
                 details {
                     summary { "who" }
@@ -201,7 +201,7 @@ pub(super) fn to_mark(page: &ClassPage<'_>) -> Markup {
     }
 }
 
-/// What grading again has changed.
+/// Changes of scores since the last run.
 pub(super) fn changes(page: &ClassPage<'_>) -> Markup {
     html! {
         @if !page.changes.is_empty() {
