@@ -243,7 +243,7 @@ fn points_are_printed_before_they_can_be_lost() {
         .expect("the program starts");
     let mut lines = BufReader::new(child.stderr.take().expect("it is piped")).lines().map_while(Result::ok);
     // Printed once it is known that the folder can be written to, and before anything is compiled.
-    assert!(lines.any(|line| line.contains("untouched starting file")), "it ended early");
+    assert!(lines.any(|line| line.contains("unchanged starting file")), "it ended early");
     std::fs::remove_dir_all(folder.path().join("out")).expect("it can be removed");
     let rest: Vec<String> = lines.collect();
     let output = child.wait_with_output().expect("it ends");

@@ -90,10 +90,10 @@ pub fn why_not(rubric: &Rubric, task: &str, points: f64) -> Option<String> {
     let manual: Vec<&str> =
         rubric.tasks.iter().filter(|task| task.manual).map(|task| task.id.as_str()).collect();
     let Some(found) = rubric.tasks.iter().find(|other| other.id == task) else {
-        return Some(format!("there is no task `{task}`; a person marks {}", manual.join(", ")));
+        return Some(format!("there is no task `{task}`; tutors mark {}", manual.join(", ")));
     };
     if !found.manual {
-        return Some(format!("task {task} is graded automatically; a person marks {}", manual.join(", ")));
+        return Some(format!("task {task} is graded automatically; tutors mark {}", manual.join(", ")));
     }
     let fits = (0.0..=found.points).contains(&points);
     (!fits).then(|| format!("task {task} is worth 0 to {} points", found.points))

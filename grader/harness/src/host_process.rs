@@ -1,12 +1,14 @@
 //! The grader's side of the process that runs a submission.
 
+mod answers;
+mod child;
 mod expected;
 
 use std::borrow::Cow;
-use std::io::{BufReader, ErrorKind, Write};
-use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
+use std::io::ErrorKind;
+use std::process::{Child, Command, Stdio};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
 
 use arty::integrator::Settings;
@@ -22,6 +24,8 @@ use verdict::text::clean;
 use crate::build::SubmissionProgram;
 use crate::job::JobError;
 use crate::sandbox::{self, Account, Layers, Profile};
+use answers::{check_shape, clean_words, malformed, of_first_part, unexpected};
+use child::{describe, receive, send, spawn};
 use expected::Expected;
 
 /// A running submission that answers jobs.
@@ -109,7 +113,7 @@ impl HostProcess {
         let _ = process.expected.send(Expected::start());
         process.failed = match process.answer(job_time, job_time) {
             Ok(Response::Started) => None,
-            Ok(_) => Some(Fault::Malformed("it did not say that it is there".to_owned())),
+            Ok(_) => Some(Fault::Malformed("it did not report that it has started".to_owned())),
             Err(JobError::Submission(fault)) => Some(fault),
             Err(JobError::Harness(error)) => return Err(error),
         };
@@ -280,134 +284,9 @@ impl HostProcess {
     }
 }
 
-/// Starts a program whose file may have been written a moment ago.
-///
-/// While another thread is between fork and exec, its child holds all open files of this process, and a file that is
-/// open for writing cannot be executed: then starting is tried again.
-fn spawn(command: &mut Command) -> std::io::Result<Child> {
-    for _ in 0..100 {
-        match command.spawn() {
-            Err(error) if error.kind() == ErrorKind::ExecutableFileBusy => {
-                std::thread::sleep(Duration::from_millis(5));
-            }
-            other => return other,
-        }
-    }
-    command.spawn()
-}
-
-/// Exit status of a process, and what it may mean.
-fn describe(status: ExitStatus) -> String {
-    #[cfg(unix)]
-    if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
-        use rustix::process::Signal;
-        let is = |other: Signal| signal == other.as_raw();
-        let why = if is(Signal::ABORT) {
-            ": out of memory, stack overflow, or it aborted itself"
-        } else if is(Signal::SEGV) {
-            ": stack overflow, or memory that is not its own"
-        } else {
-            ""
-        };
-        return format!("{status}{why}");
-    }
-    status.to_string()
-}
-
-/// Starts a thread that writes messages, so that a process that does not read them blocks nothing else.
-fn send(mut pipe: ChildStdin) -> Sender<Vec<u8>> {
-    let (sender, messages) = channel::<Vec<u8>>();
-    std::thread::spawn(move || {
-        for message in messages {
-            if pipe.write_all(&message).is_err() {
-                break;
-            }
-        }
-    });
-    sender
-}
-
-/// Starts a thread that reads each answer when it is expected. Anything else stays in the pipe.
-fn receive(pipe: ChildStdout) -> (Sender<Expected>, Receiver<std::io::Result<Option<Response>>>) {
-    let (sender, responses) = channel();
-    let (expected, queue) = channel::<Expected>();
-    std::thread::spawn(move || {
-        let mut answers = BufReader::new(pipe);
-        for expected in queue {
-            let message = expected.read(&mut answers);
-            let last = !matches!(message, Ok(Some(_)));
-            if sender.send(message).is_err() || last {
-                break;
-            }
-        }
-    });
-    (expected, responses)
-}
-
 impl Drop for HostProcess {
     fn drop(&mut self) {
         sandbox::end(&mut self.child);
         let _ = self.child.wait();
     }
-}
-
-/// Turns the timeout of the first part of a job, which had this much time, into [`Fault::TooSlow`].
-fn of_first_part(error: JobError, time: Duration) -> JobError {
-    match error {
-        JobError::Submission(Fault::Timeout(seconds)) if seconds == time.as_secs_f64() => {
-            Fault::TooSlow(seconds).into()
-        }
-        error => error,
-    }
-}
-
-fn malformed(what: &str) -> JobError {
-    Fault::Malformed(what.to_owned()).into()
-}
-
-fn unexpected(response: Response) -> JobError {
-    match response {
-        Response::Panicked { message } => Fault::Panic(clean(&message)).into(),
-        // The host rejects only what the grader has made sure that it does not send.
-        Response::Rejected { message } => malformed(&format!("it rejected a job: {}", short(&message))),
-        Response::Started => malformed("it started anew"),
-        Response::SceneReady => malformed("it only said that a scene is ready"),
-        Response::Replayed(_) => malformed("a path that nobody asked for"),
-        Response::Probed(_) => malformed("paths that nobody asked for"),
-        Response::Rendered(_) => malformed("a rendering that nobody asked for"),
-    }
-}
-
-/// A text of a process, made harmless and shortened for people.
-fn short(words: &str) -> String {
-    let words = clean(words).replace('\n', " ");
-    match words.char_indices().nth(LONGEST_WORDS) {
-        Some((end, _)) => format!("{} …", &words[..end]),
-        None => words,
-    }
-}
-
-/// Maximum number of characters of a text that no process should send.
-const LONGEST_WORDS: usize = 200;
-
-fn clean_words(mut path: Replayed) -> Replayed {
-    for call in &mut path.calls {
-        let names = call.given.iter_mut().chain(&mut call.got).map(|(name, _)| name);
-        for word in names.chain([&mut call.function]) {
-            *word = short(word);
-        }
-    }
-    path
-}
-
-fn check_shape(rendered: Rendered, batches: usize, pixels: usize) -> std::result::Result<Rendered, Fault> {
-    let whole =
-        rendered.batches.len() == batches && rendered.batches.iter().all(|batch| batch.len() == pixels);
-    if !whole {
-        return Err(Fault::Malformed("the number of batches or pixels is wrong".to_owned()));
-    }
-    if rendered.batches.iter().flatten().flatten().any(|value| !value.is_finite()) {
-        return Err(Fault::Malformed("a mean that is not finite".to_owned()));
-    }
-    Ok(rendered)
 }

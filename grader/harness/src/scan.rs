@@ -13,21 +13,21 @@ const LISTED: usize = 20;
 
 /// Modules of the standard library that reach out of the process, and why a submission does not need them.
 const MODULES: [(&str, &str); 6] = [
-    ("process", "a submission may neither start nor end processes"),
-    ("fs", "a submission has no files"),
-    ("net", "a submission has no network"),
-    ("env", "a submission has no environment"),
-    ("os", "a submission has nothing to ask of the operating system"),
-    ("path", "a submission has no files"),
+    ("process", "a submission must not start or end processes"),
+    ("fs", "a submission cannot access files"),
+    ("net", "a submission cannot access the network"),
+    ("env", "a submission cannot read the environment"),
+    ("os", "a submission cannot use the operating system"),
+    ("path", "a submission cannot access files"),
 ];
 
 /// Macros that read files or variables of the compiling machine, and why a submission does not need them.
 const MACROS: [(&str, &str); 5] = [
-    ("include", "a submission is one file"),
-    ("include_str", "a submission reads no files, not even when it is compiled"),
-    ("include_bytes", "a submission reads no files, not even when it is compiled"),
-    ("env", "a submission has no environment, not even when it is compiled"),
-    ("option_env", "a submission has no environment, not even when it is compiled"),
+    ("include", "a submission must be a single file"),
+    ("include_str", "a submission cannot read files, not even at compile time"),
+    ("include_bytes", "a submission cannot read files, not even at compile time"),
+    ("env", "a submission cannot read the environment, not even at compile time"),
+    ("option_env", "a submission cannot read the environment, not even at compile time"),
 ];
 
 /// Finds such uses in a source. A source that is not Rust has no findings: the compiler reports it.
@@ -95,7 +95,7 @@ fn attribute(tokens: &[TokenTree]) -> Option<(String, &'static str)> {
     };
     let found = is_punctuation(mark, '#')
         && (sets_path(&attribute) || (0..inner.len()).any(|start| sets_path(&inner[start..])));
-    found.then(|| ("#[path]".to_owned(), "a submission is one file"))
+    found.then(|| ("#[path]".to_owned(), "a submission must be a single file"))
 }
 
 /// An identifier without the `r#` of raw ones.

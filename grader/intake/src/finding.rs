@@ -90,20 +90,24 @@ impl std::fmt::Display for Refusal {
                 };
                 write!(f, "{}: {size} bytes are too many (at most {max})", harmless(name))
             }
-            Self::NotSource(what) => write!(f, "its {FILE_NAME} is {what}, not a text"),
+            Self::NotSource(what) => write!(f, "its {FILE_NAME} is {what}, not a text file"),
             Self::Empty => write!(f, "its {FILE_NAME} is empty"),
-            Self::Encoding => write!(f, "its {FILE_NAME} begins like UTF-16, but is not; save it as UTF-8"),
-            Self::NulBytes => write!(f, "its {FILE_NAME} has NUL bytes: it is no text; save it as UTF-8"),
+            Self::Encoding => {
+                write!(f, "its {FILE_NAME} is marked as UTF-16 but is not valid; save it as UTF-8")
+            }
+            Self::NulBytes => {
+                write!(f, "its {FILE_NAME} contains NUL bytes, so it is not a text file; save it as UTF-8")
+            }
             Self::Link(name) => write!(f, "{} is a link, and links are not followed", harmless(name)),
-            Self::OutsidePath(name) => write!(f, "{} leads out of its archive", harmless(name)),
-            Self::Bomb(why) => write!(f, "it unpacks to more than any submission has: {why}"),
+            Self::OutsidePath(name) => write!(f, "the path {} leads out of its archive", harmless(name)),
+            Self::Bomb(why) => write!(f, "it unpacks to more than is allowed: {why}"),
             Self::NestedArchive(name) => {
-                write!(f, "{}: an archive in an archive in an archive is not opened", harmless(name))
+                write!(f, "{}: archives nested more than twice are not opened", harmless(name))
             }
             Self::UnsupportedArchive(name) => {
                 write!(
                     f,
-                    "{}: archives of this kind are not read (.zip, .tar.gz and .tar are)",
+                    "{}: this archive format is not supported; use .zip, .tar.gz or .tar",
                     harmless(name)
                 )
             }
@@ -112,7 +116,7 @@ impl std::fmt::Display for Refusal {
                 write!(f, "{}: the archive is broken ({})", harmless(name), harmless(why))
             }
             Self::Git(why) => {
-                write!(f, "the git repository has no commit that can be read: {}", harmless(why))
+                write!(f, "the git repository has no readable commit: {}", harmless(why))
             }
             Self::Unreadable(name, why) => write!(f, "{} cannot be read: {why}", harmless(name)),
         }
@@ -166,21 +170,21 @@ impl std::fmt::Display for Note {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::ByteOrderMark => write!(f, "a byte order mark was removed"),
-            Self::Utf16 => write!(f, "it was turned from UTF-16 into UTF-8"),
+            Self::Utf16 => write!(f, "it was converted from UTF-16 to UTF-8"),
             Self::Windows1252(line) => {
                 write!(f, "line {line} is not UTF-8; the file was read as Windows-1252 (Latin-1)")
             }
             Self::LineEnds => write!(f, "line ends of another system were replaced"),
-            Self::Copies(names) => write!(f, "there are {} copies of it, all the same", names.len()),
+            Self::Copies(names) => write!(f, "it contains {} equal copies of the source", names.len()),
             Self::OtherName(name) => write!(f, "it is called {}, not {FILE_NAME}", harmless(name)),
             Self::StarterToo(name) => {
-                write!(f, "{} is the untouched starting file and was passed over", harmless(name))
+                write!(f, "{} is the unchanged starting file and was skipped", harmless(name))
             }
-            Self::Untouched => write!(f, "it is the untouched starting file"),
+            Self::Untouched => write!(f, "it is the unchanged starting file"),
             Self::Uncommitted(name) => {
                 write!(f, "{} has changes that are not committed; the last commit is graded", harmless(name))
             }
-            Self::PassedOver(what) => write!(f, "passed over: {}", harmless(what)),
+            Self::PassedOver(what) => write!(f, "skipped: {}", harmless(what)),
         }
     }
 }

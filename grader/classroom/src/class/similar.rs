@@ -163,13 +163,13 @@ fn join(groups: &mut Vec<Group>, pair: (String, String, f64)) {
 /// Describes the groups in a text for staff.
 pub fn describe(groups: &[Group]) -> String {
     let mut text =
-        "Submissions that are alike, for a person to look at. This proves nothing: the exercise is small.\n\
-                    Compared are tokens, without names, comments, layout, and what the starting file has.\n"
+        "Similar submissions, for a tutor to look at. Similarity proves nothing: the exercise is small.\n\
+                    Tokens are compared, without names, comments, layout and the code of the starting file.\n"
             .to_owned();
     for group in groups {
         if group.identical {
             text +=
-                &format!("\nthe same but for names, comments and layout: {}\n", group.students.join(", "));
+                &format!("\nthe same except for names, comments and layout: {}\n", group.students.join(", "));
             continue;
         }
         text += &format!("\nnearly the same: {}\n", group.students.join(", "));

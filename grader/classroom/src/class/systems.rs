@@ -38,12 +38,12 @@ pub fn fill_moodle(from: &Path, to: &Path, rows: &[Row]) -> Result<Filled> {
     let mut filled = Filled::default();
     for line in &mut table.rows {
         let Some(row) = find(rows, line, identifier, email) else {
-            filled.left.push(format!("line {}: nobody of the class", line.line));
+            filled.left.push(format!("line {}: not in the class", line.line));
             continue;
         };
         let answer = changeable.map_or("", |column| line.cell(column)).to_lowercase();
         if matches!(answer.as_str(), "no" | "nein") {
-            filled.left.push(format!("{}: Moodle does not let this grade be changed", row.key));
+            filled.left.push(format!("{}: Moodle has locked this grade", row.key));
             continue;
         }
         // Those who handed in nothing keep what a person may have entered.
@@ -75,7 +75,7 @@ pub fn fill_ilias(from: &Path, to: &Path, rows: &[Row]) -> Result<Filled> {
     let mut filled = Filled::default();
     for line in &mut table.rows {
         let Some(row) = find(rows, line, number, login) else {
-            filled.left.push(format!("line {}: nobody of the class", line.line));
+            filled.left.push(format!("line {}: not in the class", line.line));
             continue;
         };
         let Some(points) = row.points.filter(|_| row.state != State::Missing) else { continue };

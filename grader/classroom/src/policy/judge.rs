@@ -97,7 +97,7 @@ impl Policy {
         let mut why: Vec<String> =
             extension.map(|reason| format!("extension: {reason}")).into_iter().collect();
         let Some(receipt) = receipt.filter(|receipt| receipt.received_at.is_some()) else {
-            why.push("nobody said when it came".to_owned());
+            why.push("no receipt time".to_owned());
             return Lateness { standing: Standing::Unknown, late_by: None, factor: 1.0, why: why.join("; ") };
         };
         let received = receipt.received_at.unwrap_or(deadline);
@@ -105,7 +105,7 @@ impl Policy {
         let matches =
             receipt.md5.as_ref().map(|md5| checksums.iter().any(|sum| sum.eq_ignore_ascii_case(md5)));
         if matches == Some(false) {
-            why.push("md5-wrong: no file that came has the checksum that was sent".to_owned());
+            why.push("md5-wrong: no file has the checksum that was sent".to_owned());
         }
         if !late_by.is_positive() {
             return in_time(why.join("; "));
@@ -113,13 +113,13 @@ impl Policy {
         if let (Some(rule), Some(true)) = (self.rules.md5, matches) {
             let checksum_in_time = receipt.md5_received_at.is_some_and(|time| time <= deadline);
             if checksum_in_time && late_by <= hours(rule.within_hours) {
-                why.push("md5: its checksum came in time".to_owned());
+                why.push("md5: its checksum was received in time".to_owned());
                 return in_time(why.join("; "));
             }
             why.push(if checksum_in_time {
-                format!("md5: the file came more than {} hours after the deadline", rule.within_hours)
+                format!("md5: the file was received more than {} hours after the deadline", rule.within_hours)
             } else {
-                "md5: its checksum did not come in time either".to_owned()
+                "md5: its checksum was not received in time either".to_owned()
             });
         }
         let accepted = self.rules.late.filter(|rule| late_by < hours(rule.less_than_hours));

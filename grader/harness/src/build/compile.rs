@@ -97,7 +97,7 @@ pub fn compile(
         Err(failure) => return Ok(Err(failure)),
     };
     if let Look::Unreadable(line) = look {
-        let why = "this cannot be read, though rustc can: write it in another way";
+        let why = "this source compiles but cannot be inspected: rewrite this part";
         return Ok(Err(not_run(Some(line), &[why.to_owned()])));
     }
     usual?;
@@ -156,7 +156,7 @@ fn refused(refusals: &[refuse::Refusal]) -> BuildFailure {
 /// Failure of a program that was compiled but must not run.
 fn not_run(line: Option<usize>, why: &[String]) -> BuildFailure {
     let mut messages =
-        "error: the program is not run: it is not what an ordinary submission compiles to\n".to_owned();
+        "error: the program is not run: it differs from what safe Rust compiles to\n".to_owned();
     if let Some(line) = line {
         messages.push_str(&format!(" --> render_pt.rs:{line}\n"));
     }
@@ -166,10 +166,10 @@ fn not_run(line: Option<usize>, why: &[String]) -> BuildFailure {
     BuildFailure { messages: clean(&messages), line: line.and_then(|line| u32::try_from(line).ok()) }
 }
 
-/// Differences that are listed at most.
+/// Maximum number of differences that are listed.
 const LISTED: usize = 20;
 
-/// Compiles with the sandbox that the toolchain bears.
+/// Compiles in the strongest sandbox that the toolchain works in.
 fn compile_anywhere(
     framework: &Framework,
     source: &str,

@@ -31,11 +31,11 @@ pub(crate) enum Look {
 /// Maximum number of refusals that are listed.
 const LISTED: usize = 20;
 
-const UNSAFE: &str = "unsafe code is forbidden: write it in safe Rust";
-const FOREIGN: &str = "a submission has no functions of other languages: take `extern` away";
-const ASSEMBLER: &str = "a submission has no assembler: write it in Rust";
-const LINKER: &str = "a submission has nothing to tell the linker: take the attribute away";
-const PROGRAM: &str = "the program around a submission is fixed: take the attribute away";
+const UNSAFE: &str = "unsafe code is forbidden: use safe Rust";
+const FOREIGN: &str = "functions of other languages are forbidden: remove `extern`";
+const ASSEMBLER: &str = "assembler is forbidden: use Rust";
+const LINKER: &str = "attributes for the linker are forbidden: remove it";
+const PROGRAM: &str = "the program around a submission is fixed: remove the attribute";
 
 /// Attributes that control the linker or the kind of program.
 const ATTRIBUTES: [(&str, &str); 21] = [
@@ -70,7 +70,7 @@ pub(crate) fn look(source: &str) -> Look {
     // What rustc passes over as a line for a shell may hide the beginning of a comment that it does not see.
     let start = source.strip_prefix('\u{feff}').unwrap_or(source);
     if start.starts_with("#!") && !start.starts_with("#![") {
-        let why = "a submission is no script: take the line away";
+        let why = "a submission is not a script: remove the line";
         return Look::Through(vec![Refusal { line: 1, what: "#!".to_owned(), why }]);
     }
     let look = match TokenStream::from_str(source) {

@@ -7,6 +7,7 @@ use super::digest::{Digests, Rate};
 use super::table::{link, name};
 use crate::class::gradebook::{Row, State};
 use present::page::plots::{Bars, bars};
+use present::words;
 
 /// Length of the lists of the slowest and of the most efficient submissions.
 const LISTED: usize = 5;
@@ -25,11 +26,11 @@ pub(super) fn header(page: &ClassPage<'_>) -> Markup {
     html! {
         header {
             h1 { (page.rubric.title) }
-            p.soft { "assignment " (page.rubric.assignment) " · for staff only: it names everybody" }
+            p.soft { "assignment " (page.rubric.assignment) " · for staff only" }
             p { @for (index, (state, words)) in parts.into_iter().filter(|(state, _)| count(*state) > 0).enumerate() {
                 @if index > 0 { ", " } b { (count(state)) } " " (words)
             } }
-            @if page.similar > 0 { p { "Submissions that are the same or nearly so: " (page.similar) " groups, in "
+            @if page.similar > 0 { p { "Submissions that are the same or nearly so: " (words::count(page.similar, "group")) ", in "
                 a href="similar.txt" { "similar.txt" } "." } }
         }
     }
@@ -49,7 +50,7 @@ pub(super) fn points(page: &ClassPage<'_>) -> Markup {
     }
     let plot = bars(&Bars {
         label: "distribution of points",
-        axis: "points of the tasks that are graded automatically",
+        axis: "points of tasks that are graded automatically",
         range: (0.0, max),
         counts: &counts,
         expected: None,
@@ -73,7 +74,7 @@ pub(super) fn points(page: &ClassPage<'_>) -> Markup {
                         }
                     }
                 } }
-            } } p.soft { "Of " (points.len()) " submissions with points; raw, before anything is taken off for being late." } }
+            } } p.soft { "Of " (words::count(points.len(), "submission")) " with points; raw, before any penalty for being late." } }
         }
     }
 }
@@ -88,9 +89,9 @@ pub(super) fn hard(page: &ClassPage<'_>, digests: &Digests) -> Markup {
         |task: &str| page.rubric.tasks.iter().find(|other| other.id == task).map(|task| task.title.as_str());
     html! {
         @if !checks.is_empty() {
-            h2 { "What was hard" }
+            h2 { "Checks with the lowest pass rates" }
             details open {
-                summary { "how many passed each of " (checks.len()) " checks" }
+                summary { "pass rates of " (words::count(checks.len(), "check")) }
                 div.scroll { table.sortable {
                     thead { tr {
                         th scope="col" aria-sort="none" { button type="button" { "task" } }
@@ -117,7 +118,7 @@ pub(super) fn alike(page: &ClassPage<'_>, digests: &Digests) -> Markup {
     html! {
         @if !digests.alike.is_empty() {
             h2 { "The same mistake" }
-            p.soft { "By the likeliest cause; where none is known, by the checks that did not pass." }
+            p.soft { "By the most likely cause; if none is known, by the failed checks." }
             div.scroll { table {
                 thead { tr { th.number { "submissions" } th { "what they share" } th { "who" } } }
                 tbody { @for group in &digests.alike { tr {
@@ -171,8 +172,8 @@ pub(super) fn speed(page: &ClassPage<'_>, digests: &Digests) -> Markup {
                 (list("The most efficient", work.iter().take(LISTED).map(|&(index, work)| (index, format!("{:.2} times the median", median / work))).collect()))
             }
             @if !work.is_empty() { p.soft { "Efficiency is 1 / (variance × time) of multiple importance sampling, in the scenes of the check "
-                code { "efficiency" } ". Several submissions were graded at once, so that times are rough: "
-                code { "cargo grader converge" } " measures exactly." } }
+                code { "efficiency" } ". Several submissions were graded at once, so times are approximate: "
+                code { "cargo grader converge" } " measures accurately." } }
         }
     }
 }
@@ -184,8 +185,8 @@ pub(super) fn to_mark(page: &ClassPage<'_>) -> Markup {
             @let missing: Vec<&Row> = page.rows.iter()
                 .filter(|row| row.state == State::Graded && row.tasks.get(&task.id).copied().flatten().is_none()).collect();
             h2 { "To be marked: " (task.id) " " (task.title) }
-            @if missing.is_empty() { p { "nothing is left" } } @else {
-                p { (missing.len()) " submissions have no mark yet. "
+            @if missing.is_empty() { p { "all done" } } @else {
+                p { (words::count(missing.len(), "submission")) " without a mark. "
                     code { "cargo grader mark SUBMISSION " (task.id) " POINTS --comment=\"…\" --out=" (page.out.display()) }
                     ", then " code { "--resume" } "." }
                 details {
