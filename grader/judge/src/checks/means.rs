@@ -65,7 +65,7 @@ impl<'a> Picture<'a> {
         let scenes = self
             .scenes
             .iter()
-            .map(|scene| Ok(process.load(scene)?))
+            .map(|scene| process.load(scene))
             .collect::<Result<Vec<u32>, JobError>>()?;
         self.judge_in(&mut process, &scenes, anomalies)
     }
