@@ -1,4 +1,4 @@
-//! Files that the laboratory writes. A file that cannot be written is an [`Error::Output`]: the input is not to blame.
+//! Output of the laboratory. Output that cannot be written is an [`Error::Output`]: the input is not to blame.
 
 use std::io::Write;
 use std::path::Path;
@@ -20,6 +20,20 @@ pub fn write_text(path: &Path, text: &str) -> Result<()> {
 /// If it cannot be created.
 pub fn create_folder(path: &Path) -> Result<()> {
     std::fs::create_dir_all(path).map_err(|error| failed(path, error))
+}
+
+/// Writes text to standard output. A reader that has left, such as `head`, is not an error.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn print(text: &str) -> Result<()> {
+    let mut output = std::io::stdout().lock();
+    match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Error::Output(format!("standard output: {error}")))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The error of a file or folder that cannot be written.

@@ -1,5 +1,6 @@
 //! The command line of the laboratory.
 
+use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -30,6 +31,14 @@ fn the_autograder_is_a_zip_that_gradescope_takes() {
         ["Cargo.lock", ".cargo/config.toml", "solution/src/algorithms/render_pt.rs", "grader/src/main.rs"];
     for name in needed {
         assert!(archive.by_name(name).is_ok(), "{name}");
+    }
+    // Cargo refuses a workspace that names a member without a manifest.
+    let mut manifest = String::new();
+    archive.by_name("Cargo.toml").expect("it is there").read_to_string(&mut manifest).expect("it is text");
+    let manifest: toml_edit::DocumentMut = manifest.parse().expect("it is TOML");
+    for member in manifest["workspace"]["members"].as_array().expect("there are members") {
+        let name = format!("{}/Cargo.toml", member.as_str().expect("a folder"));
+        assert!(archive.by_name(&name).is_ok(), "{name}");
     }
 }
 

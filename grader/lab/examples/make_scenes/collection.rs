@@ -1,27 +1,27 @@
-//! Everything that is written.
+//! A collection of scenes, models and textures.
 
 use crate::model::Model;
 use crate::output::{Content, OutputFile};
 use crate::scene_file::SceneFile;
 
-/// All scenes with what they are made of.
+/// Scenes with their models and textures.
 #[derive(Default)]
 pub(crate) struct Collection {
     /// Scenes; each names some of the models.
     pub(crate) scenes: Vec<SceneFile>,
-    /// Models; one may stand in several scenes.
+    /// Models; several scenes may use the same one.
     pub(crate) models: Vec<Model>,
     /// PNG files by name.
     pub(crate) textures: Vec<(&'static str, Vec<u8>)>,
 }
 
 impl Collection {
-    /// The model of a name.
+    /// The model with this name.
     pub(crate) fn model(&self, name: &str) -> Option<&Model> {
         self.models.iter().find(|model| model.name == name)
     }
 
-    /// All files, as they are to be on the disk.
+    /// All files to write.
     pub(crate) fn files(&self) -> Vec<OutputFile> {
         let text = |name: String, text: String| OutputFile { name, content: Content::Text(text) };
         let mut files = Vec::new();

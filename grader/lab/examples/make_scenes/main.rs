@@ -1,12 +1,12 @@
 //! Writes the public scenes of the exercise into `scenes/`, or checks that they are as this program would
 //! write them.
 //!
-//! Every number of every scene stands in the files of `scenes/` beside this one: whoever wants to know why a
-//! light hangs where it does finds it there, and whoever wants another scene copies one of them.
+//! The files in `scenes/` beside this one hold every number of every scene, with reasons. To add a scene, copy one of
+//! them.
 //!
 //! ```text
-//! cargo run --release -p grader --example make_scenes              # writes
-//! cargo run --release -p grader --example make_scenes -- --check   # compares, status 1 on a difference
+//! cargo run --release -p lab --example make_scenes              # writes
+//! cargo run --release -p lab --example make_scenes -- --check   # compares, status 1 on a difference
 //! ```
 
 mod collection;

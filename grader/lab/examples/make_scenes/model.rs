@@ -9,13 +9,13 @@ use crate::surface::Surface;
 pub(crate) struct Model {
     /// The name without an ending.
     pub(crate) name: &'static str,
-    /// What it is, for the file's first line.
+    /// Description, the first line of the file.
     pub(crate) about: &'static str,
     /// In the order of the file.
     pub(crate) parts: Vec<Part>,
 }
 
-/// All that a model has of one material.
+/// The part of a model with one material.
 pub(crate) struct Part {
     /// Its triangles.
     pub(crate) surface: Surface,
@@ -23,7 +23,7 @@ pub(crate) struct Part {
     pub(crate) material: Material,
 }
 
-/// A material as MTL says it. Build it with one of the functions below.
+/// A material in the terms of MTL. Build it with one of the functions below.
 #[derive(Clone)]
 pub(crate) struct Material {
     /// Its name in both files.
@@ -38,11 +38,11 @@ pub(crate) struct Material {
     pub(crate) emission: [f64; 3],
     /// map_Kd.
     pub(crate) texture: Option<&'static str>,
-    /// illum with what belongs to it.
+    /// illum, with its parameters.
     pub(crate) model: Illumination,
 }
 
-/// Which MTL illumination model a material asks for.
+/// An illumination model of MTL.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Illumination {
     /// illum 1.
@@ -94,7 +94,7 @@ impl Material {
         Self { specular: [1.0; 3], model, ..Self::diffuse(name, BLACK) }
     }
 
-    /// A lamp, which reflects nothing.
+    /// A light that reflects nothing.
     pub(crate) fn lamp(name: &'static str, radiance: [f64; 3]) -> Self {
         Self { emission: radiance, ..Self::diffuse(name, BLACK) }
     }
@@ -109,7 +109,7 @@ impl Material {
         Self { texture: Some(file), ..self }
     }
 
-    /// True if its front shines.
+    /// True if its front emits light.
     pub(crate) fn is_lamp(&self) -> bool {
         self.emission != BLACK
     }
@@ -155,7 +155,7 @@ impl Model {
         self
     }
 
-    /// Number of triangles in all.
+    /// Total number of triangles.
     pub(crate) fn triangle_count(&self) -> usize {
         self.parts.iter().map(|part| part.surface.triangles.len()).sum()
     }

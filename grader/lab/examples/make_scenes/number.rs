@@ -1,8 +1,8 @@
-//! Numbers as they stand in the files: four decimals at most, the same on every machine.
+//! Numbers as written to files: at most four decimals, the same on every machine.
 
 use glam::DVec3;
 
-/// Steps per unit that a written number can tell apart.
+/// Resolution of written numbers: steps per unit.
 ///
 /// Sines and the like differ in their last bits from one platform's library to the next. Four decimals are
 /// far coarser than that, and at the size of our scenes far finer than anyone can see.
@@ -18,7 +18,7 @@ pub(crate) fn snap_point(point: DVec3) -> DVec3 {
     DVec3::new(snap(point.x), snap(point.y), snap(point.z))
 }
 
-/// A number without needless zeros, and without a minus before a zero.
+/// A number without trailing zeros, and without a sign if it is zero.
 pub(crate) fn text(value: f64) -> String {
     let fixed = format!("{value:.4}");
     let short = fixed.trim_end_matches('0').trim_end_matches('.');
@@ -34,12 +34,12 @@ pub(crate) fn precise(value: f64) -> String {
     }
 }
 
-/// Three numbers with spaces between, as OBJ wants them.
+/// Three numbers separated by spaces, as in OBJ files.
 pub(crate) fn spaced(values: [f64; 3]) -> String {
     values.map(text).join(" ")
 }
 
-/// Three numbers of any magnitude with spaces between.
+/// Three numbers of any magnitude, separated by spaces.
 pub(crate) fn spaced_precisely(values: [f64; 3]) -> String {
     values.map(precise).join(" ")
 }

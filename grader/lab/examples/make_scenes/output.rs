@@ -1,17 +1,17 @@
-//! Files on the disk: writing them, and saying where they differ.
+//! Writing files, and comparing them with those on disk.
 
 use std::fs;
 use std::path::Path;
 
 /// One file of the folder.
 pub(crate) struct OutputFile {
-    /// Its path below the folder of the scenes.
+    /// Path relative to the folder of the scenes.
     pub(crate) name: String,
-    /// Everything in it.
+    /// Content.
     pub(crate) content: Content,
 }
 
-/// What a file holds. The kinds are compared differently.
+/// Content of a file. The kinds are compared differently.
 pub(crate) enum Content {
     /// Text with Unix line ends; a checkout with other line ends counts as equal.
     Text(String),
@@ -19,7 +19,7 @@ pub(crate) enum Content {
     Png(Vec<u8>),
 }
 
-/// Writes all files, replacing what is there.
+/// Writes all files, and replaces existing ones.
 pub(crate) fn write(folder: &Path, files: &[OutputFile]) -> std::io::Result<()> {
     for file in files.iter().filter(|file| difference(folder, file).is_some()) {
         let bytes = match &file.content {
@@ -35,7 +35,7 @@ pub(crate) fn write(folder: &Path, files: &[OutputFile]) -> std::io::Result<()> 
     Ok(())
 }
 
-/// One line for each file that is missing or not as it would be written.
+/// One line for each file that is missing or differs.
 pub(crate) fn differences(folder: &Path, files: &[OutputFile]) -> Vec<String> {
     files.iter().filter_map(|file| difference(folder, file)).collect()
 }

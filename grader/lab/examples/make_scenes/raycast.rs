@@ -1,11 +1,11 @@
-//! The plainest ray caster there is, to check scenes with. It shares no code with the renderer.
+//! A minimal ray caster to check scenes with. It shares no code with the renderer.
 
 use glam::{DMat4, DVec3};
 
 use crate::collection::Collection;
 use crate::scene_file::{Light, SceneFile, Step};
 
-/// One triangle of a scene at its place.
+/// One triangle of a scene, in world space.
 pub(crate) struct PlacedTriangle {
     pub(crate) corners: [DVec3; 3],
     /// Name of its material.
@@ -71,7 +71,7 @@ fn matrix(step: Step) -> DMat4 {
     }
 }
 
-/// The first triangle that a ray meets, and how far away.
+/// The closest triangle that a ray hits, and its distance.
 pub(crate) fn first_hit(
     triangles: &[PlacedTriangle],
     origin: DVec3,
@@ -83,7 +83,7 @@ pub(crate) fn first_hit(
         .min_by(|(a, _), (b, _)| a.total_cmp(b))
 }
 
-/// Unit directions through the middles of the pixels of a picture.
+/// Unit directions through the pixel centres of an image.
 pub(crate) fn camera_directions(scene: &SceneFile, width: usize, height: usize) -> Vec<DVec3> {
     let forwards = (scene.camera.center - scene.camera.eye).normalize();
     let right = forwards.cross(DVec3::Y).normalize();

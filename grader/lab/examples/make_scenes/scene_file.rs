@@ -1,4 +1,4 @@
-//! A scene file: which models, seen from where, lit by what.
+//! A scene file: models, camera and lights.
 
 use glam::DVec3;
 
@@ -8,23 +8,23 @@ use crate::number::{listed, precise, text};
 pub(crate) struct SceneFile {
     /// The name without an ending.
     pub(crate) name: &'static str,
-    /// What the scene is there to show: the comment at the top, line by line.
+    /// Purpose of the scene: the comment at the top, line by line.
     pub(crate) about: &'static [&'static str],
     /// In the order of the file.
     pub(crate) models: Vec<ModelUse>,
-    /// Where the picture is taken from.
+    /// The camera.
     pub(crate) camera: Camera,
     /// Lights beside the emissive parts of the models.
     pub(crate) lights: Vec<Light>,
-    /// Largest number of scattering events.
+    /// Maximum number of bounces.
     pub(crate) max_bounces: u32,
 }
 
-/// A model at its place in a scene.
+/// An instance of a model.
 pub(crate) struct ModelUse {
     /// Name of the model.
     pub(crate) model: &'static str,
-    /// What is done to it, first step first.
+    /// Transform, in the order of its steps.
     pub(crate) steps: Vec<Step>,
 }
 
@@ -43,7 +43,7 @@ pub(crate) enum Step {
 pub(crate) struct Camera {
     /// The pinhole.
     pub(crate) eye: DVec3,
-    /// What is in the middle of the picture.
+    /// The point at the centre of the image.
     pub(crate) center: DVec3,
     /// Horizontal angle of view in degrees.
     pub(crate) fov: f64,
@@ -55,7 +55,7 @@ pub(crate) enum Light {
     Point { position: DVec3, power: [f64; 3] },
     /// A cone; half-angles in degrees, `power` in watts.
     Spot { position: DVec3, target: DVec3, inner: f64, outer: f64, power: [f64; 3] },
-    /// A triangle that shines from its front.
+    /// A triangle that emits from its front.
     Triangle { corners: [DVec3; 3], radiance: [f64; 3] },
 }
 

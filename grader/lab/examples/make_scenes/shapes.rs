@@ -41,13 +41,13 @@ pub(crate) fn sheet(columns: usize, rows: usize, point: impl Fn(f64, f64) -> DVe
     Surface::new(positions, triangles)
 }
 
-/// A rectangle that looks up, at the height `y`, over the given ranges of x and z.
+/// A rectangle that faces up, at the height `y`, over the given ranges of x and z.
 pub(crate) fn floor(y: f64, [x0, x1]: [f64; 2], [z0, z1]: [f64; 2]) -> Surface {
     let center = DVec3::new((x0 + x1) / 2.0, y, (z0 + z1) / 2.0);
     rectangle(center, DVec3::X * (x1 - x0) / 2.0, DVec3::NEG_Z * (z1 - z0) / 2.0)
 }
 
-/// A rectangle that looks down, at the height `y`, over the given ranges of x and z.
+/// A rectangle that faces down, at the height `y`, over the given ranges of x and z.
 pub(crate) fn ceiling(y: f64, x: [f64; 2], z: [f64; 2]) -> Surface {
     floor(y, x, z).flipped()
 }
@@ -60,12 +60,12 @@ pub(crate) fn textured(mut rectangle: Surface, across: f64, along: f64) -> Surfa
     rectangle
 }
 
-/// A rectangle whose centre stands at `center` and whose front looks at `target`, upright.
+/// An upright rectangle centred at `center` that faces `target`.
 pub(crate) fn panel_facing(center: DVec3, target: DVec3, half_width: f64, half_height: f64) -> Surface {
     panel(center, target - center, half_width, half_height)
 }
 
-/// A rectangle whose front looks along `normal`, with its width level.
+/// A rectangle that faces along `normal`, with its width horizontal.
 pub(crate) fn panel(center: DVec3, normal: DVec3, half_width: f64, half_height: f64) -> Surface {
     let normal = normal.normalize();
     let right = DVec3::Y.cross(normal).normalize();

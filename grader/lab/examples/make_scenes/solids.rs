@@ -8,7 +8,7 @@ use glam::DVec3;
 use crate::surface::Surface;
 
 /// A sphere of `20 · 4^subdivisions` triangles of nearly equal size, with its front outside: an icosahedron
-/// whose triangles are cut into four again and again.
+/// whose triangles are repeatedly split into four.
 pub(crate) fn icosphere(center: DVec3, radius: f64, subdivisions: u32) -> Surface {
     let (mut directions, mut triangles) = icosahedron();
     for _ in 0..subdivisions {
@@ -29,7 +29,7 @@ pub(crate) fn icosphere(center: DVec3, radius: f64, subdivisions: u32) -> Surfac
     Surface::new(directions.into_iter().map(|direction| center + radius * direction).collect(), triangles)
 }
 
-/// An icosphere that is shaded as if it were round.
+/// An icosphere with smooth normals.
 pub(crate) fn smooth_sphere(center: DVec3, radius: f64, subdivisions: u32) -> Surface {
     let mut sphere = icosphere(center, radius, subdivisions);
     sphere.normals = sphere.positions.iter().map(|&position| (position - center).normalize()).collect();

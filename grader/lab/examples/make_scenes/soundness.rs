@@ -1,4 +1,4 @@
-//! What must hold of every scene before it is written.
+//! Requirements on every scene before it is written.
 
 use std::collections::BTreeSet;
 
@@ -21,7 +21,7 @@ pub(crate) fn faults(collection: &Collection) -> Vec<String> {
     faults
 }
 
-/// What must hold even of scenes whose triangles and lights are meant to be awkward.
+/// Requirements that also hold for scenes with degenerate triangles and lights.
 pub(crate) fn faults_of_names(collection: &Collection) -> Vec<String> {
     let mut faults = Vec::new();
     let mut names = BTreeSet::new();

@@ -1,4 +1,4 @@
-//! Checks of the scenes by means that have nothing to do with the renderer.
+//! Checks of the scenes that do not use the renderer.
 
 use std::collections::BTreeMap;
 
@@ -57,7 +57,7 @@ fn the_committed_files_are_what_would_be_written() {
     }
 }
 
-/// How many bytes files hold together.
+/// Total size of files in bytes.
 fn size_of(files: &[OutputFile]) -> usize {
     let bytes = |file: &OutputFile| match &file.content {
         Content::Text(text) => text.len(),

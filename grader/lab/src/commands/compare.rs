@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use crate::compare::{Comparison, Grades};
+use crate::output::print;
 use verdict::error::Result;
 
 /// Compare two sets of grades, and print every verdict and every task's points that differ
@@ -28,7 +29,7 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let (before, after) = (Grades::load(&arguments.before)?, Grades::load(&arguments.after)?);
     let comparison = Comparison::new(&before, &after, &arguments.renamed.iter().cloned().collect());
-    print!("{comparison}");
+    print(&comparison.to_string())?;
     Ok(ExitCode::from(u8::from(!comparison.is_same())))
 }
 

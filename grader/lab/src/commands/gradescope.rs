@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use crate::handout;
+use crate::output::print;
 use harness::assignment::Assignment;
 use harness::workspace::Workspace;
 use verdict::error::Result;
@@ -22,6 +23,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let bytes = handout::autograder(&workspace, &arguments.assignment.name, &arguments.out)?;
     let (out, megabytes) = (arguments.out.display(), bytes as f64 / 1e6);
-    println!("{out}: {megabytes:.1} MB; contains the solution, for staff only");
+    print(&format!("{out}: {megabytes:.1} MB; contains the solution, for staff only\n"))?;
     Ok(ExitCode::SUCCESS)
 }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use crate::handout;
+use crate::output::print;
 use harness::assignment::Assignment;
 use harness::workspace::Workspace;
 use verdict::check::Visibility;
@@ -24,14 +25,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let rubric = arguments.assignment.rubric(&workspace)?;
     let summary = handout::make(&workspace, &arguments.assignment.name, &arguments.out)?;
     let out = arguments.out.display();
-    println!("{out}: {} files, {:.1} MB", summary.files, summary.bytes as f64 / 1e6);
-    println!("verified: no eight consecutive tokens of the solution's task blocks are in it");
+    let (files, megabytes) = (summary.files, summary.bytes as f64 / 1e6);
     let staff = rubric.checks().filter(|(_, spec)| spec.visibility() == Visibility::StaffOnly).count();
-    if staff > 0 {
-        println!(
-            "{staff} checks are run by staff only: a grade there skips them and says how many points they decide"
-        );
-    }
-    println!("try it: cd {out} && cargo grade");
+    print(&format!(
+        "{out}: {files} files, {megabytes:.1} MB\n\
+         verified: no eight consecutive tokens of the solution's task blocks are in it\n\
+         staff-only checks, which a grade there skips: {staff}\n\
+         try it: cd {out} && cargo grade\n"
+    ))?;
     Ok(ExitCode::SUCCESS)
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use crate::limits::Measurement;
-use crate::output::create_folder;
+use crate::output::{create_folder, print};
 use harness::workspace::Workspace;
 use judge::extreme::measure::Finding;
 use judge::reference::Oracle;
@@ -39,13 +39,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         measured.save(&folder, COMMAND)?;
         eprintln!("tables and plots: {}", folder.display());
     } else {
-        print!("{}", measured.summary(COMMAND));
+        print(&measured.summary(COMMAND))?;
     }
     let wrong: Vec<&Finding> = measured.findings.iter().filter(|finding| !finding.is_right()).collect();
-    for finding in &wrong {
-        println!("wrong: {} with {}", finding.scene, finding.settings.technique);
-    }
+    let line = |finding: &&Finding| format!("wrong: {} with {}\n", finding.scene, finding.settings.technique);
+    let lines: String = wrong.iter().map(line).collect();
     let scenes = measured.findings.len();
-    println!("{} of {scenes} extreme scenes are right", scenes - wrong.len());
+    print(&format!("{lines}{} of {scenes} extreme scenes are right\n", scenes - wrong.len()))?;
     Ok(ExitCode::from(u8::from(!wrong.is_empty())))
 }

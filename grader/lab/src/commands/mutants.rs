@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use indicatif::ProgressBar;
 
 use crate::mutants::{Ledger, Outcome, Record, Variant, table, variants};
-use crate::output::write_text;
+use crate::output::{print, write_text};
 use harness::assignment::Assignment;
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
@@ -59,7 +59,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         let records = ledger.records(variant);
         let outcome = Outcome::new(variant, &records);
         unexpected += usize::from(!outcome.unexpected.is_empty());
-        println!("{}", describe(variant, &records, &outcome));
+        print(&describe(variant, &records, &outcome))?;
     }
 
     let records: Vec<Vec<&Record>> = all.list.iter().map(|variant| ledger.records(variant)).collect();
@@ -68,7 +68,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let file = if is_complete { workspace.kill_matrix() } else { folder.join("kill-matrix.md") };
     write_text(&file, &table(&all, &rubric, &records))?;
     eprintln!("kill matrix: {}", file.display());
-    println!("{unexpected} of {} variants have an unexpected outcome", selected.len());
+    print(&format!("{unexpected} of {} variants have an unexpected outcome\n", selected.len()))?;
     Ok(ExitCode::from(u8::from(unexpected > 0)))
 }
 
@@ -89,5 +89,5 @@ fn describe(variant: &Variant, records: &[&Record], outcome: &Outcome) -> String
     for message in &outcome.unexpected {
         text += &format!("\n    UNEXPECTED: {message}");
     }
-    text
+    text + "\n"
 }

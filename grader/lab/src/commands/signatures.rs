@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use crate::mutants::{Ledger, learn, variants};
-use crate::output::write_text;
+use crate::output::{print, write_text};
 use harness::assignment::Assignment;
 use harness::workspace::Workspace;
 use judge::diagnosis::Catalogue;
@@ -45,7 +45,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     eprintln!("signatures: {}", signatures.display());
     eprintln!("confusion matrix: {}", table.display());
     let ([wrong, first, named], [right, blamed]) = (confusion.wrong(), confusion.right());
-    println!("right cause named first: {first} of {wrong}; named at all: {named} of {wrong}");
-    println!("correct submissions with a named cause: {blamed} of {right}");
+    print(&format!(
+        "right cause named first: {first} of {wrong}; named at all: {named} of {wrong}\n\
+         correct submissions with a named cause: {blamed} of {right}\n"
+    ))?;
     Ok(ExitCode::SUCCESS)
 }

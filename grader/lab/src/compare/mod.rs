@@ -184,8 +184,11 @@ fn grouped(number: usize) -> String {
 mod tests {
     use super::*;
 
-    fn grades(list: &[(&str, f64, &[(&str, Ending)])]) -> Grades {
-        let grade = |&(name, points, checks): &(&str, f64, &[(&str, Ending)])| {
+    /// Name, points of the only task, checks.
+    type Row<'a> = (&'a str, f64, &'a [(&'a str, Ending)]);
+
+    fn grades(list: &[Row<'_>]) -> Grades {
+        let grade = |&(name, points, checks): &Row<'_>| {
             let checks = checks
                 .iter()
                 .map(|(id, ending)| (("5.1a".to_owned(), id.parse().expect("it is an id")), *ending))

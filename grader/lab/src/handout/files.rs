@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::manifests;
+use super::manifests::{self, Audience};
 use harness::workspace::Workspace;
 use verdict::error::{Error, Result};
 
@@ -48,7 +48,7 @@ const MOVED: [(&str, &str); 3] = [
 ];
 
 /// Cargo's files, which name packages that are not included.
-type Rewrite = fn(&str) -> std::result::Result<String, String>;
+type Rewrite = fn(&str, Audience) -> std::result::Result<String, String>;
 const REWRITTEN: [(&str, Rewrite); 12] = [
     ("Cargo.toml", manifests::workspace),
     ("Cargo.lock", manifests::lock),
@@ -64,8 +64,12 @@ const REWRITTEN: [(&str, Rewrite); 12] = [
     ("grader/verdict/Cargo.toml", manifests::without_tests),
 ];
 
-/// Paths and contents of all files, sorted by path.
+/// Paths and contents of the files for students, sorted by path.
 pub(super) fn for_students(workspace: &Workspace, assignment: &str) -> Result<Vec<(PathBuf, Vec<u8>)>> {
+    files(workspace, assignment, Audience::Students)
+}
+
+fn files(workspace: &Workspace, assignment: &str, audience: Audience) -> Result<Vec<(PathBuf, Vec<u8>)>> {
     let root = workspace.root();
     let own = workspace.assignment(assignment);
     let own = own.strip_prefix(root).unwrap_or(&own).to_owned();
@@ -88,7 +92,7 @@ pub(super) fn for_students(workspace: &Workspace, assignment: &str) -> Result<Ve
     for (name, rewrite) in REWRITTEN {
         let path = root.join(name);
         let text = String::from_utf8(read(&path)?).map_err(|error| Error::file(&path, error))?;
-        let text = rewrite(&text).map_err(|message| Error::file(&path, message))?;
+        let text = rewrite(&text, audience).map_err(|message| Error::file(&path, message))?;
         files.push((PathBuf::from(name), text.into_bytes()));
     }
     for (path, bytes) in files.iter_mut().filter(|(path, _)| path.starts_with("grader")) {
@@ -111,14 +115,9 @@ fn without_tests(source: &mut Vec<u8>) {
 /// The same for the autograder: with the solution, which some checks compare with, and with the scenes of the staff.
 pub(super) fn for_grading(workspace: &Workspace, assignment: &str) -> Result<Vec<(PathBuf, Vec<u8>)>> {
     let root = workspace.root();
-    let mut files = for_students(workspace, assignment)?;
-    // These name the solution: not rewritten here.
-    let whole = ["Cargo.toml", "Cargo.lock", ".cargo/config.toml"].map(Path::new);
-    files.retain(|(path, _)| !whole.contains(&path.as_path()));
-    for name in
-        whole.into_iter().chain(["solution/Cargo.toml", "solution/src", "solution/benches"].map(Path::new))
-    {
-        collect(root, name, &mut files)?;
+    let mut files = files(workspace, assignment, Audience::Grading)?;
+    for name in ["solution/Cargo.toml", "solution/src", "solution/benches"] {
+        collect(root, Path::new(name), &mut files)?;
     }
     for name in EXCLUDED.map(Path::new) {
         if root.join(name).is_dir() {

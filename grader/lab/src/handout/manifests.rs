@@ -4,18 +4,34 @@ use std::collections::BTreeSet;
 
 use toml_edit::{Array, DocumentMut, Item, Table, TomlError, value};
 
-/// Packages that stay with the staff, and their folders. Aliases have the names of the packages.
-const KEPT_BACK: [(&str, &str); 2] = [("solution", "solution"), ("lab", "grader/lab")];
+/// Who gets a copy of the checkout.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Audience {
+    /// Students.
+    Students,
+    /// A machine that grades, such as Gradescope's.
+    Grading,
+}
+
+impl Audience {
+    /// Packages that are not included, and their folders. Aliases have the names of the packages.
+    fn excluded(self) -> &'static [(&'static str, &'static str)] {
+        match self {
+            Self::Students => &[("lab", "grader/lab"), ("solution", "solution")],
+            Self::Grading => &[("lab", "grader/lab")],
+        }
+    }
+}
 
 fn parse(text: &str) -> Result<DocumentMut, String> {
     text.parse().map_err(|error: TomlError| error.to_string())
 }
 
 /// The root's `Cargo.toml`.
-pub(super) fn workspace(text: &str) -> Result<String, String> {
+pub(super) fn workspace(text: &str, audience: Audience) -> Result<String, String> {
     let mut document = parse(text)?;
     let workspace = document.get_mut("workspace").ok_or("there is no `workspace`")?;
-    let is_given = |member: &str| KEPT_BACK.iter().all(|(_, folder)| member != *folder);
+    let is_given = |member: &str| audience.excluded().iter().all(|(_, folder)| member != *folder);
     for (key, is_needed) in [("members", true), ("default-members", false)] {
         let Some(members) = workspace.get_mut(key).and_then(Item::as_array_mut) else {
             if is_needed {
@@ -26,22 +42,22 @@ pub(super) fn workspace(text: &str) -> Result<String, String> {
         members.retain(|member| member.as_str().is_none_or(is_given));
     }
     if let Some(dependencies) = workspace.get_mut("dependencies").and_then(Item::as_table_mut) {
-        KEPT_BACK.iter().for_each(|(name, _)| drop(dependencies.remove(name)));
+        audience.excluded().iter().for_each(|(name, _)| drop(dependencies.remove(name)));
     }
     Ok(document.to_string())
 }
 
 /// The command aliases of `.cargo/config.toml`.
-pub(super) fn aliases(text: &str) -> Result<String, String> {
+pub(super) fn aliases(text: &str, audience: Audience) -> Result<String, String> {
     let mut document = parse(text)?;
     if let Some(aliases) = document.get_mut("alias").and_then(Item::as_table_mut) {
-        KEPT_BACK.iter().for_each(|(name, _)| drop(aliases.remove(name)));
+        audience.excluded().iter().for_each(|(name, _)| drop(aliases.remove(name)));
     }
     Ok(document.to_string())
 }
 
 /// A package's `Cargo.toml` without benchmarks.
-pub(super) fn without_benches(text: &str) -> Result<String, String> {
+pub(super) fn without_benches(text: &str, _: Audience) -> Result<String, String> {
     let mut document = parse(text)?;
     document.remove("bench");
     Ok(document.to_string())
@@ -49,7 +65,7 @@ pub(super) fn without_benches(text: &str) -> Result<String, String> {
 
 /// A package's `Cargo.toml` without tests, benchmarks and examples. Unit tests are disabled too, since some need the
 /// solution. Their dependencies stay, or `Cargo.lock` would no longer fit.
-pub(super) fn without_tests(text: &str) -> Result<String, String> {
+pub(super) fn without_tests(text: &str, _: Audience) -> Result<String, String> {
     let mut document = parse(text)?;
     for key in ["bench", "example", "test"] {
         document.remove(key);
@@ -68,7 +84,7 @@ pub(super) fn without_tests(text: &str) -> Result<String, String> {
 }
 
 /// `Cargo.lock` without the dependencies of packages that are not included.
-pub(super) fn lock(text: &str) -> Result<String, String> {
+pub(super) fn lock(text: &str, audience: Audience) -> Result<String, String> {
     let mut document = parse(text)?;
     let packages = document
         .get_mut("package")
@@ -80,7 +96,8 @@ pub(super) fn lock(text: &str) -> Result<String, String> {
     let mut wanted: Vec<(String, Option<String>)> = packages
         .iter()
         .filter(|table| {
-            !table.contains_key("source") && KEPT_BACK.iter().all(|(name, _)| text(table, "name") != *name)
+            !table.contains_key("source")
+                && audience.excluded().iter().all(|(name, _)| text(table, "name") != *name)
         })
         .map(|table| (text(table, "name"), None))
         .collect();
@@ -133,7 +150,7 @@ name = "b"
 version = "1.0.0"
 source = "registry"
 "#;
-        let left = lock(text).expect("it is a lock file");
+        let left = lock(text, Audience::Students).expect("it is a lock file");
         let names: Vec<&str> = left.lines().filter(|line| line.starts_with("name")).collect();
         assert_eq!(names, ["name = \"arty\"", "name = \"a\""], "{left}");
         assert!(left.contains("1.0.0") && !left.contains("2.0.0"), "{left}");
@@ -142,11 +159,14 @@ source = "registry"
     #[test]
     fn other_members_aliases_and_comments_stay() {
         let text = "# why\n[workspace]\nmembers = [\"a\", \"solution\", \"b\"]\n";
+        let workspace = |text| super::workspace(text, Audience::Students);
         assert_eq!(workspace(text).as_deref(), Ok("# why\n[workspace]\nmembers = [\"a\", \"b\"]\n"));
         assert!(workspace("[package]\n").is_err() && workspace("[[").is_err());
-        assert_eq!(aliases("[alias]\na = \"b\"\nsolution = \"c\"\n").as_deref(), Ok("[alias]\na = \"b\"\n"));
+        let aliased = "[alias]\na = \"b\"\nsolution = \"c\"\n";
+        assert_eq!(aliases(aliased, Audience::Grading).as_deref(), Ok(aliased));
+        assert_eq!(aliases(aliased, Audience::Students).as_deref(), Ok("[alias]\na = \"b\"\n"));
         let text = "[package]\nname = \"x\"\n[[bin]]\nname = \"x\"\n[[bench]]\nname = \"y\"\n";
-        let left = without_tests(text).expect("it is TOML");
+        let left = without_tests(text, Audience::Students).expect("it is TOML");
         assert_eq!(left.matches("test = false").count(), 3, "{left}");
         assert!(!left.contains("bench"), "{left}");
     }

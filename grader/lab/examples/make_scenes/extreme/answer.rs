@@ -1,27 +1,27 @@
-//! What an extreme scene must show, and by which techniques: the file `answers.yml`.
+//! The expected radiance of each extreme scene, and the techniques that can render it: the file `answers.yml`.
 
 use std::fmt::Write as _;
 
 use crate::number::precise;
 use crate::scene_file::SceneFile;
 
-/// What a scene must show.
+/// Expected result of a scene.
 pub(crate) struct Answer {
-    /// The right picture.
+    /// The expected image.
     pub(crate) truth: Truth,
-    /// Where that comes from.
+    /// Derivation.
     pub(crate) because: &'static str,
-    /// Techniques that cannot show it, with the reason.
+    /// Techniques that cannot render it, with the reason.
     pub(crate) left_out: Vec<(&'static str, &'static str)>,
-    /// Width and height of the picture that is judged.
+    /// Width and height of the image in pixels.
     pub(crate) size: [u32; 2],
     /// Relative error that single precision and the scene's own approximations explain.
     pub(crate) tolerance: f64,
-    /// True if a submission's points depend on it; else it is remarked on.
+    /// True if points of a submission depend on it; otherwise a failure is only reported.
     pub(crate) judged: bool,
 }
 
-/// The right picture.
+/// The expected image.
 pub(crate) enum Truth {
     /// This radiance in every pixel.
     Radiance(f64),

@@ -1,4 +1,4 @@
-//! Lights that are tiny, huge, near, many, or turned away.
+//! Lights that are tiny, huge, near, numerous, or turned away.
 
 use std::f64::consts::PI;
 

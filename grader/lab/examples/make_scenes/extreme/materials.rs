@@ -1,4 +1,4 @@
-//! Materials at the ends of their parameters, in surroundings that glow evenly.
+//! Materials with extreme parameters, in uniform light.
 
 use glam::{DVec3, dvec3};
 

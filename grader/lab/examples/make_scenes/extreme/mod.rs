@@ -1,7 +1,7 @@
-//! Scenes at the ends of what a renderer meets, each with a known answer: `scenes/extreme/` and its `answers.yml`.
+//! Scenes at the limits of single precision, each with a known radiance: `scenes/extreme/` and its `answers.yml`.
 //!
-//! Everything is grey, so that an answer is one number. Cameras of closed forms look at one point through so narrow an
-//! angle that the answer is the same for the whole picture.
+//! Everything is grey, so that the answer is one number. Where it is a closed form, the field of view is so narrow that
+//! the answer holds for the whole image.
 
 mod answer;
 mod formulas;
@@ -27,7 +27,7 @@ use answer::{Answer, answers_file};
 /// The folder below `scenes/`.
 pub(crate) const FOLDER: &str = "extreme";
 
-/// All extreme scenes, with what they must show.
+/// All extreme scenes with their answers.
 #[derive(Default)]
 pub(crate) struct Extremes {
     /// The scenes with what they are made of.
@@ -42,7 +42,7 @@ impl Extremes {
         self.answers.push(answer);
     }
 
-    /// All files, as they are to be on the disk.
+    /// All files to write.
     pub(crate) fn files(&self) -> Vec<OutputFile> {
         let mut files = self.collection.files();
         let content = Content::Text(answers_file(&self.collection.scenes, &self.answers));
@@ -52,7 +52,7 @@ impl Extremes {
     }
 }
 
-/// All of them.
+/// The whole collection.
 pub(crate) fn all() -> Extremes {
     let mut extremes = Extremes::default();
     lights::add_to(&mut extremes);
@@ -107,7 +107,7 @@ fn hollow_cube(face: impl Fn(DVec3, DVec3, DVec3) -> Surface) -> Surface {
     faces.reduce(Surface::joined).expect("a cube has faces")
 }
 
-/// What a furnace shows: radiance L, reflectance r, up to k bounces.
+/// Radiance in a furnace of emission L and reflectance r, after up to k bounces.
 fn series(radiance: f64, reflectance: f64, bounces: u32) -> f64 {
     (0..=bounces).map(|bounce| radiance * reflectance.powi(bounce as i32)).sum()
 }

@@ -1,4 +1,4 @@
-//! The same room at other sizes and other places.
+//! The same room at other scales and positions.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! Awkward triangles, and cameras in awkward places.
+//! Degenerate triangles, and cameras very close to surfaces.
 
 use std::f64::consts::PI;
 
