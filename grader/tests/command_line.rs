@@ -1,7 +1,8 @@
 //! The program as its users call it.
 
+use std::io::{BufRead, BufReader};
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 use verdict::report::{Report, TaskState};
 
@@ -85,6 +86,58 @@ fn what_staff_or_student_typed_wrong_ends_with_2_and_one_clear_message() {
 }
 
 #[test]
+fn old_names_of_options_are_refused_with_the_new_ones() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = student_file();
+    let arguments = ["replay", &file, "--scene=point_plane", "--pixel=1,1", "--sample=0", "--hits-off"];
+    let output = grader(folder.path(), &arguments);
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert!(stderr(&output).contains("--emission-on-hit=off"), "{}", stderr(&output));
+}
+
+#[test]
+fn the_checkout_is_that_of_the_current_folder_or_the_one_that_is_named() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let other = folder.path().join("other");
+    for name in ["skeleton", "scenes"] {
+        std::fs::create_dir_all(other.join(name)).expect("it can be made");
+    }
+    std::fs::write(other.join("skeleton/Cargo.toml"), "").expect("it can be written");
+    // There is no such scene in it.
+    for (stands_in, named) in [(other.clone(), None), (folder.path().to_owned(), Some(&other))] {
+        let option = named.map(|named| format!("--workspace={}", named.display()));
+        let arguments: Vec<&str> = ["plan", "point_plane"].into_iter().chain(option.as_deref()).collect();
+        let output = grader(&stands_in, &arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains("other/scenes"), "{arguments:?}: {}", stderr(&output));
+    }
+    let known = grader(folder.path(), &["plan", "point_plane"]);
+    assert_eq!(known.status.code(), Some(0), "{}", stderr(&known));
+    let nowhere = grader(folder.path(), &["plan", "point_plane", "--workspace=."]);
+    assert_eq!(nowhere.status.code(), Some(2), "{}", stderr(&nowhere));
+}
+
+#[test]
+fn a_checkout_without_the_solution_shows_only_commands_for_students() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let help = |folder: &Path, arguments: &[&str]| {
+        String::from_utf8_lossy(&grader(folder, arguments).stdout).into_owned()
+    };
+    let staff = help(folder.path(), &["--help"]);
+    for name in ["skeleton", "scenes"] {
+        std::fs::create_dir_all(folder.path().join(name)).expect("it can be made");
+    }
+    std::fs::write(folder.path().join("skeleton/Cargo.toml"), "").expect("it can be written");
+    let student = help(folder.path(), &["--help"]);
+    for command in ["class", "mark"] {
+        assert!(staff.contains(&format!("\n  {command} ")), "{staff}");
+        assert!(!student.contains(&format!("\n  {command} ")), "{student}");
+    }
+    assert!(student.contains("\n  grade ") && student.contains("\n  replay "), "{student}");
+    assert!(!help(folder.path(), &["grade", "--help"]).contains("--missing-is-zero"));
+}
+
+#[test]
 fn what_is_there_and_cannot_be_graded_has_no_points_and_a_code() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("render_pt.rs");
@@ -128,16 +181,76 @@ fn a_grade_says_what_was_odd_and_what_being_late_costs() {
     assert!(said.contains("× 0.8; 8 of 10 points count"), "{said}");
 }
 
+/// Runs the grader in bash, where `"$0"` is the program and `"$1"` the student file.
+#[cfg(unix)]
+fn in_bash(folder: &Path, script: &str) -> Output {
+    let mut bash = Command::new("bash");
+    bash.args(["-o", "pipefail", "-c", script, env!("CARGO_BIN_EXE_grader"), &student_file()]);
+    bash.current_dir(folder).output().expect("bash starts")
+}
+
 #[test]
 #[cfg(unix)]
-fn a_closed_pipe_costs_nobody_the_report() {
+fn a_closed_pipe_ends_nothing_but_the_output() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let script =
-        format!("'{}' grade '{}' --only=point_plane | true", env!("CARGO_BIN_EXE_grader"), student_file());
-    let mut shell = Command::new("bash");
-    let status = shell.args(["-o", "pipefail", "-c", &script]).current_dir(folder.path()).status();
-    assert_eq!(status.expect("bash starts").code(), Some(0));
+    // Both streams are closed before the program writes to them.
+    for command in [
+        "grade \"$1\" --only=point_plane",
+        "plan point_plane",
+        "doctor",
+        "--help",
+        "completions bash",
+        "replay --help",
+    ] {
+        let output = in_bash(folder.path(), &format!("{{ sleep 0.2; \"$0\" {command} 2>&3; }} 3>&1 | true"));
+        assert_eq!(output.status.code(), Some(0), "{command}: {}", stderr(&output));
+        let output = in_bash(folder.path(), &format!("{{ sleep 0.2; \"$0\" {command}; }} | true"));
+        assert_eq!(output.status.code(), Some(0), "{command}: {}", stderr(&output));
+        assert!(!stderr(&output).contains("panicked"), "{command}: {}", stderr(&output));
+    }
     assert!(folder.path().join("report/report.json").is_file());
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn what_cannot_be_written_ends_with_3_and_is_named() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (command, name) in [
+        ("plan point_plane >/dev/full", "standard output"),
+        ("grade \"$1\" --only=point_plane --out=/proc/report", "/proc/report"),
+        ("grade \"$1\" --only=point_plane --export=junit:/proc/junit.xml", "/proc/junit.xml"),
+        ("pack \"$1\" --out=/proc/submission.zip", "/proc/submission.zip"),
+        (
+            "replay \"$1\" --scene=point_plane --pixel=1,1 --sample=0 --json=/proc/path.json",
+            "/proc/path.json",
+        ),
+    ] {
+        let output = in_bash(folder.path(), &format!("\"$0\" {command}"));
+        assert_eq!(output.status.code(), Some(3), "{command}: {}", stderr(&output));
+        assert!(stderr(&output).contains(name), "{command}: {}", stderr(&output));
+    }
+}
+
+#[test]
+fn points_are_printed_before_they_can_be_lost() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_grader"))
+        .args(["grade", &student_file(), "--only=light-pick", "--out=out"])
+        .current_dir(folder.path())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    let mut lines = BufReader::new(child.stderr.take().expect("it is piped")).lines().map_while(Result::ok);
+    // Printed once it is known that the folder can be written to, and before anything is compiled.
+    assert!(lines.any(|line| line.contains("unchanged starting file")), "it ended early");
+    std::fs::remove_dir_all(folder.path().join("out")).expect("it can be removed");
+    let rest: Vec<String> = lines.collect();
+    let output = child.wait_with_output().expect("it ends");
+    assert_eq!(output.status.code(), Some(3), "{rest:?}");
+    assert!(rest.iter().any(|line| line.contains("out/report.json")), "{rest:?}");
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(printed.contains("graded automatically"), "{printed}");
 }
 
 #[test]

@@ -240,7 +240,7 @@ fn gradescope_s_script_gives_results_also_where_there_is_nothing_to_grade() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let submission = folder.path().join("submission");
     std::fs::create_dir(&submission).expect("it can be made");
-    let script = root().join("grader/src/handout/gradescope/run_autograder");
+    let script = root().join("grader/lab/src/handout/gradescope/run_autograder");
     let run = || {
         let mut bash = Command::new("bash");
         bash.arg(&script)

@@ -1,4 +1,4 @@
-//! A whole class: rosters, deadlines, marks, gradebooks.
+//! Grading a whole class: rosters, deadlines, tutors' marks, gradebooks, and the tables of course systems.
 
 pub mod class;
 pub mod marks;

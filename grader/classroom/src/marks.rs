@@ -1,4 +1,4 @@
-//! What a person has marked, kept beside the results so that grading again loses none of it.
+//! Marks: points that a tutor gave, stored beside the results so that grading again keeps them.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ use verdict::output;
 use verdict::report::{Report, TaskState};
 use verdict::rubric::Rubric;
 
-/// The points that a person gave one submission for one task.
+/// A tutor's points for one task of one submission.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mark {
     /// BLAKE3 of the submission's source, as in its report.
@@ -18,13 +18,13 @@ pub struct Mark {
     pub task: String,
     /// The points.
     pub points: f64,
-    /// What the student is told.
+    /// Comment for the student.
     pub comment: String,
-    /// When, in UTC (RFC 3339).
+    /// Time of marking in UTC (RFC 3339).
     pub marked_at: String,
 }
 
-/// All marks of a folder of results, in its `marks.json`.
+/// All marks of a result folder, stored in its `marks.json`.
 #[derive(Debug)]
 pub struct Marks {
     path: PathBuf,
@@ -32,10 +32,10 @@ pub struct Marks {
 }
 
 impl Marks {
-    /// Those of a folder; none if it has none yet.
+    /// Reads the marks of a folder; none if it has no `marks.json` yet.
     ///
     /// # Errors
-    /// If the file is there, but is not what it should be.
+    /// If the file is there but cannot be read, or is not valid.
     pub fn open(folder: &Path) -> Result<Self> {
         let path = folder.join("marks.json");
         let list = match std::fs::read_to_string(&path) {
@@ -46,22 +46,22 @@ impl Marks {
         Ok(Self { path, list })
     }
 
-    /// Where they are kept.
+    /// Path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The mark of a submission for a task.
+    /// Mark of a submission, given by its hash, for a task; `None` if there is none.
     pub fn find(&self, submission: &str, task: &str) -> Option<&Mark> {
         self.list.iter().find(|mark| mark.submission == submission && mark.task == task)
     }
 
-    /// All marks of a submission.
+    /// All marks of a submission, given by its hash.
     pub fn of<'a>(&'a self, submission: &'a str) -> impl Iterator<Item = &'a Mark> {
         self.list.iter().filter(move |mark| !submission.is_empty() && mark.submission == submission)
     }
 
-    /// Adds a mark, in place of an earlier one for the same, and saves all.
+    /// Adds a mark, or replaces the one for the same submission and task, and saves all marks.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -71,7 +71,7 @@ impl Marks {
         output::write_json(&self.path, &self.list)
     }
 
-    /// Puts the marks of a report's submission into it.
+    /// Adds the marks of a report's submission to the report.
     pub fn apply(&self, report: &mut Report) {
         for task in &mut report.tasks {
             if let Some(mark) = self.find(&report.submission.hash, &task.id) {
@@ -85,15 +85,15 @@ impl Marks {
     }
 }
 
-/// Why a task cannot be marked with so many points; `None` if it can.
+/// Error message if a task cannot be marked with so many points; `None` if it can.
 pub fn why_not(rubric: &Rubric, task: &str, points: f64) -> Option<String> {
     let manual: Vec<&str> =
         rubric.tasks.iter().filter(|task| task.manual).map(|task| task.id.as_str()).collect();
     let Some(found) = rubric.tasks.iter().find(|other| other.id == task) else {
-        return Some(format!("there is no task `{task}`; a person marks {}", manual.join(", ")));
+        return Some(format!("there is no task `{task}`; tutors mark {}", manual.join(", ")));
     };
     if !found.manual {
-        return Some(format!("task {task} is graded automatically; a person marks {}", manual.join(", ")));
+        return Some(format!("task {task} is graded automatically; tutors mark {}", manual.join(", ")));
     }
     let fits = (0.0..=found.points).contains(&points);
     (!fits).then(|| format!("task {task} is worth 0 to {} points", found.points))

@@ -1,4 +1,4 @@
-//! Tables as comma-separated values, as course systems and spreadsheets write them.
+//! CSV tables as course systems and spreadsheets write them.
 
 use std::path::Path;
 
@@ -7,43 +7,43 @@ use csv::{ReaderBuilder, WriterBuilder};
 use verdict::error::{Error, Result};
 use verdict::output;
 
-/// More than the largest class has.
+/// Maximum size of a table in bytes, more than the largest class needs.
 const MAX_BYTES: u64 = 16 << 20;
 
 /// A table with a header.
 #[derive(Clone, Debug)]
 pub struct Table {
-    /// The names of the columns.
+    /// Names of the columns.
     pub header: Vec<String>,
-    /// The rows, each of as many cells as there are columns.
+    /// Rows, each with as many cells as there are columns.
     pub rows: Vec<Row>,
-    /// What separates cells: a comma, a semicolon or a tab.
+    /// Separator of cells: a comma, a semicolon or a tab.
     separator: u8,
-    /// True if the file began with a byte order mark, without which some spreadsheets do not know UTF-8.
+    /// True if the file began with a byte order mark, which some spreadsheets need to recognize UTF-8.
     marked: bool,
 }
 
 /// A row of a table.
 #[derive(Clone, Debug, Default)]
 pub struct Row {
-    /// Its line in the file.
+    /// Line in the file, counted from 1; 0 if it was not read from a file.
     pub line: u64,
-    /// Its cells.
+    /// Cells in the order of the columns.
     pub cells: Vec<String>,
 }
 
 impl Row {
-    /// A cell without the blanks around it; empty if the row is too short.
+    /// A cell without surrounding blanks; empty if the row is too short.
     pub fn cell(&self, column: usize) -> &str {
         self.cells.get(column).map_or("", |text| text.trim())
     }
 }
 
 impl Table {
-    /// Reads a table. What separates cells is what the first line has most of.
+    /// Reads a table. The separator is the one that occurs most often in the first line.
     ///
     /// # Errors
-    /// If it cannot be read, is not UTF-8, or a row has more cells than the header.
+    /// If it cannot be read or is not UTF-8, or if a row has more cells than the header.
     pub fn load(path: &Path) -> Result<Self> {
         let size = std::fs::metadata(path).map_err(|error| Error::file(path, error))?.len();
         if size > MAX_BYTES {
@@ -82,17 +82,17 @@ impl Table {
         Ok(Self { header, rows, separator, marked })
     }
 
-    /// An empty table.
+    /// Creates a table without rows.
     pub fn new(header: Vec<String>) -> Self {
         Self { header, rows: Vec::new(), separator: b',', marked: false }
     }
 
-    /// Adds a row.
+    /// Appends a row.
     pub fn push(&mut self, cells: Vec<String>) {
         self.rows.push(Row { line: 0, cells });
     }
 
-    /// The first column that has one of these names, whatever its capitals, blanks and hyphens.
+    /// Index of the first column with one of these names, ignoring case, blanks and hyphens; `None` if there is none.
     pub fn column(&self, names: &[&str]) -> Option<usize> {
         let plain = |text: &str| {
             text.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect::<String>()
@@ -100,7 +100,7 @@ impl Table {
         names.iter().find_map(|name| self.header.iter().position(|other| plain(other) == plain(name)))
     }
 
-    /// Writes the table as it was read, aside and then all at once.
+    /// Writes the table with the separator and byte order mark that it was read with.
     ///
     /// # Errors
     /// If it cannot be written.
@@ -120,7 +120,7 @@ impl Table {
     }
 }
 
-/// A text that a spreadsheet does not take for a formula, whoever wrote it.
+/// Escapes a text, with a leading `'`, that a spreadsheet would take for a formula.
 pub fn no_formula(text: &str) -> String {
     // A tab or carriage return before the sign is skipped by some spreadsheets.
     let starts_formula =

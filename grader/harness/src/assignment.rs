@@ -1,20 +1,23 @@
-//! Which assignment a command is about.
+//! The command-line option that selects an assignment.
 
 use verdict::error::Result;
 use verdict::rubric::Rubric;
 
 use crate::workspace::Workspace;
 
-/// The option that names it.
+/// `--assignment`.
 #[derive(clap::Args)]
 pub struct Assignment {
-    /// The assignment: a folder below assignments/
+    /// Name of a folder in assignments/
     #[arg(long = "assignment", value_name = "ASSIGNMENT", default_value = "05-nee-mis")]
     pub name: String,
 }
 
 impl Assignment {
-    /// Its rubric.
+    /// Reads the rubric of the assignment.
+    ///
+    /// # Errors
+    /// If it cannot be read, or is wrong.
     pub fn rubric(&self, workspace: &Workspace) -> Result<Rubric> {
         Rubric::load(&workspace.assignment(&self.name).join("rubric.yml"))
     }

@@ -1,12 +1,14 @@
-//! The process that runs a submission, seen from the grader.
+//! The grader's side of the process that runs a submission.
 
+mod answers;
+mod child;
 mod expected;
 
 use std::borrow::Cow;
-use std::io::{BufReader, ErrorKind, Write};
-use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
+use std::io::ErrorKind;
+use std::process::{Child, Command, Stdio};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
 
 use arty::integrator::Settings;
@@ -22,41 +24,43 @@ use verdict::text::clean;
 use crate::build::SubmissionProgram;
 use crate::job::JobError;
 use crate::sandbox::{self, Account, Layers, Profile};
+use answers::{check_shape, clean_words, malformed, of_first_part, unexpected};
+use child::{describe, receive, send, spawn};
 use expected::Expected;
 
-/// A running submission.
+/// A running submission that answers jobs.
 ///
-/// On Linux it ends with the thread that has started it.
+/// On Linux it is killed when the thread that started it ends.
 pub struct HostProcess {
     child: Child,
     requests: Sender<Vec<u8>>,
-    /// What the next answer can be: none is read before it is asked for.
+    /// Sends the reader the limits of the next answer; no answer is read before it is expected.
     expected: Sender<Expected>,
     responses: Receiver<std::io::Result<Option<Response>>>,
     scenes: u32,
     job_time: Duration,
-    /// What all jobs together may take, and what is left of it.
+    /// Time for all jobs together, and how much of it is left.
     all_jobs: Option<[Duration; 2]>,
-    /// In which scene and with which settings the first part of a job was in time, the last that was.
+    /// Scene and settings of the last job whose first part was in time.
     tried: Option<(u32, Settings)>,
     layers: Layers,
-    /// Whether it was ended because it took too long.
+    /// True if it was ended because it took too long.
     ended: bool,
-    /// What it did instead of starting, if it did not: its answer to all jobs.
+    /// Why it did not start; the answer to all jobs.
     failed: Option<Fault>,
-    /// Processes that the machine had ended for want of memory when this one started.
+    /// Out-of-memory kills on this machine before the process was started.
     kills: Option<u64>,
-    /// Nobody else has its user id as long as it runs.
+    /// User id that no other submission has while it runs.
     _account: Arc<Account>,
 }
 
-/// A job is tried with this part of it, to see whether it will ever end …
+/// One in so many batches of a job is tried first, to find programs that never finish …
 const FIRST_PART: usize = 8;
 
-/// … within this part of the time: a third more than its share.
+/// … within one in so many parts of the time: a third more than its share.
 const FIRST_PART_TIME: u32 = 6;
 
-/// The answer to a job.
+/// Answer to a job.
 type Answer<T> = std::result::Result<T, JobError>;
 
 impl HostProcess {
@@ -109,35 +113,34 @@ impl HostProcess {
         let _ = process.expected.send(Expected::start());
         process.failed = match process.answer(job_time, job_time) {
             Ok(Response::Started) => None,
-            Ok(_) => Some(Fault::Malformed("it did not say that it is there".to_owned())),
+            Ok(_) => Some(Fault::Malformed("it did not report that it has started".to_owned())),
             Err(JobError::Submission(fault)) => Some(fault),
             Err(JobError::Harness(error)) => return Err(error),
         };
         Ok(process)
     }
 
-    /// What the program did instead of starting, if it did not. Its jobs end with the same.
+    /// Why the program did not start; `None` if it did. All of its jobs end with the same fault.
     ///
-    /// Whether programs start at all on this machine is tried with an empty submission before: so this is a fault of the
-    /// submission.
+    /// The [`trial`](crate::trial) has shown that programs start on this machine, so this is a fault of the submission.
     pub fn fault(&self) -> Option<&Fault> {
         self.failed.as_ref()
     }
 
-    /// The same process, which may take no longer than this for all that it is asked.
+    /// Limits the time for all further jobs together.
     #[must_use]
     pub fn within(mut self, time: Duration) -> Self {
         self.all_jobs = Some([time; 2]);
         self
     }
 
-    /// How the process is confined: what the grader set before the program was started, and the kernel confirmed. The
-    /// process itself has no say in it.
+    /// Sandbox layers of the process: those that the grader set before the program started and that the kernel confirms.
+    /// The process itself has no influence on them.
     pub fn layers(&self) -> Layers {
         self.layers
     }
 
-    /// Sends a scene, and gives the number by which jobs refer to it.
+    /// Sends a scene and returns the number by which jobs refer to it.
     pub fn load(&mut self, scene: &SceneDescription) -> Answer<u32> {
         match self.ask(&Request::Scene(Cow::Borrowed(scene)), self.job_time)? {
             Response::SceneReady => {
@@ -148,10 +151,10 @@ impl HostProcess {
         }
     }
 
-    /// Has batches rendered. All means are finite and there are as many as asked for.
+    /// Renders batches. There are as many as the job asks for, and all means are finite.
     ///
-    /// Unless this went well just before with this scene and these settings, an eighth of the batches goes first: nobody
-    /// waits for the others if even these take too long. Jobs of fewer than eight batches are not divided.
+    /// Unless the last job had the same scene and settings, an eighth of the batches is rendered first: if even these take
+    /// too long, the rest is not tried. Jobs of fewer than eight batches are not divided.
     pub fn render(&mut self, job: &RenderJob) -> Answer<Rendered> {
         let place = Some((job.scene, job.settings));
         let first = if self.tried == place { 0 } else { job.seeds.len() / FIRST_PART };
@@ -177,9 +180,9 @@ impl HostProcess {
         }
     }
 
-    /// Follows paths through scripted scenes: for each scene as many as asked for. Their radiance may be anything.
+    /// Traces paths through scripted scenes, as many per scene as the job asks for. Their radiance is not checked.
     ///
-    /// An eighth of them is followed before, to see whether that ends.
+    /// An eighth of them is traced first, to find programs that never finish.
     pub fn probe(&mut self, job: &ProbeJob) -> Answer<Vec<Vec<ProbedPath>>> {
         let first = job.samples / FIRST_PART as u64;
         if first > 0 {
@@ -203,7 +206,7 @@ impl HostProcess {
         }
     }
 
-    /// Follows one path again, with every call written down. Its numbers may be anything; its words are cleaned.
+    /// Traces one path again and records every call. Numbers are not checked; texts are made harmless.
     pub fn replay(&mut self, job: ReplayJob) -> Answer<Replayed> {
         self.require_scene(job.scene)?;
         match self.ask(&Request::Replay(job), self.job_time)? {
@@ -212,7 +215,7 @@ impl HostProcess {
         }
     }
 
-    /// The grader's own mistakes are found here: what the process says of a job is a matter of the submission.
+    /// Checks a job for mistakes of the grader's own, so that a rejection by the process is a fault of the submission.
     fn require_scene(&self, scene: u32) -> Result<()> {
         if scene < self.scenes {
             return Ok(());
@@ -242,8 +245,8 @@ impl HostProcess {
         })
     }
 
-    /// What the process says next, in time. If it had less than half of that time on a processor, because the machine
-    /// had other things to do, it is given `most`.
+    /// Waits for the next message for `time`, or up to `max` if the process had less than half of `time` on a processor
+    /// because the machine was busy.
     fn answer(&mut self, time: Duration, max: Duration) -> Answer<Response> {
         let before = sandbox::processor_time(&self.child);
         let (mut time, mut said) = (time, self.responses.recv_timeout(time));
@@ -267,7 +270,7 @@ impl HostProcess {
         }
     }
 
-    /// How the process ended by itself.
+    /// The fault of a process that has ended by itself.
     fn crash(&mut self) -> Result<Fault> {
         // The pipe may close a moment before the process is gone.
         std::thread::sleep(Duration::from_millis(20));
@@ -281,134 +284,9 @@ impl HostProcess {
     }
 }
 
-/// Starts a program, which may have been written a moment ago.
-///
-/// While another thread is between fork and exec, its child has all files open that this process had, and one that is
-/// open for writing cannot be run.
-fn spawn(command: &mut Command) -> std::io::Result<Child> {
-    for _ in 0..100 {
-        match command.spawn() {
-            Err(error) if error.kind() == ErrorKind::ExecutableFileBusy => {
-                std::thread::sleep(Duration::from_millis(5));
-            }
-            other => return other,
-        }
-    }
-    command.spawn()
-}
-
-/// How a process ended, and what that may mean.
-fn describe(status: ExitStatus) -> String {
-    #[cfg(unix)]
-    if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
-        use rustix::process::Signal;
-        let is = |other: Signal| signal == other.as_raw();
-        let why = if is(Signal::ABORT) {
-            ": out of memory, stack overflow, or it aborted itself"
-        } else if is(Signal::SEGV) {
-            ": stack overflow, or memory that is not its own"
-        } else {
-            ""
-        };
-        return format!("{status}{why}");
-    }
-    status.to_string()
-}
-
-/// Has a thread write messages, so that a process that does not read them costs nobody else any time.
-fn send(mut pipe: ChildStdin) -> Sender<Vec<u8>> {
-    let (sender, messages) = channel::<Vec<u8>>();
-    std::thread::spawn(move || {
-        for message in messages {
-            if pipe.write_all(&message).is_err() {
-                break;
-            }
-        }
-    });
-    sender
-}
-
-/// Has a thread read answers, each when it is expected and no earlier: what nobody asked for stays in the pipe.
-fn receive(pipe: ChildStdout) -> (Sender<Expected>, Receiver<std::io::Result<Option<Response>>>) {
-    let (sender, responses) = channel();
-    let (expected, queue) = channel::<Expected>();
-    std::thread::spawn(move || {
-        let mut answers = BufReader::new(pipe);
-        for expected in queue {
-            let message = expected.read(&mut answers);
-            let last = !matches!(message, Ok(Some(_)));
-            if sender.send(message).is_err() || last {
-                break;
-            }
-        }
-    });
-    (expected, responses)
-}
-
 impl Drop for HostProcess {
     fn drop(&mut self) {
         sandbox::end(&mut self.child);
         let _ = self.child.wait();
     }
-}
-
-/// The same error, where only the first part of a job was asked for, within this time.
-fn of_first_part(error: JobError, time: Duration) -> JobError {
-    match error {
-        JobError::Submission(Fault::Timeout(seconds)) if seconds == time.as_secs_f64() => {
-            Fault::TooSlow(seconds).into()
-        }
-        error => error,
-    }
-}
-
-fn malformed(what: &str) -> JobError {
-    Fault::Malformed(what.to_owned()).into()
-}
-
-fn unexpected(response: Response) -> JobError {
-    match response {
-        Response::Panicked { message } => Fault::Panic(clean(&message)).into(),
-        // The host rejects only what the grader has made sure that it does not send.
-        Response::Rejected { message } => malformed(&format!("it rejected a job: {}", short(&message))),
-        Response::Started => malformed("it started anew"),
-        Response::SceneReady => malformed("it only said that a scene is ready"),
-        Response::Replayed(_) => malformed("a path that nobody asked for"),
-        Response::Probed(_) => malformed("paths that nobody asked for"),
-        Response::Rendered(_) => malformed("a rendering that nobody asked for"),
-    }
-}
-
-/// Words of a process that a person will see: clean, and no more than anyone will read.
-fn short(words: &str) -> String {
-    let words = clean(words).replace('\n', " ");
-    match words.char_indices().nth(LONGEST_WORDS) {
-        Some((end, _)) => format!("{} …", &words[..end]),
-        None => words,
-    }
-}
-
-/// Characters of a text that should not be there at all.
-const LONGEST_WORDS: usize = 200;
-
-fn clean_words(mut path: Replayed) -> Replayed {
-    for call in &mut path.calls {
-        let names = call.given.iter_mut().chain(&mut call.got).map(|(name, _)| name);
-        for word in names.chain([&mut call.function]) {
-            *word = short(word);
-        }
-    }
-    path
-}
-
-fn check_shape(rendered: Rendered, batches: usize, pixels: usize) -> std::result::Result<Rendered, Fault> {
-    let whole =
-        rendered.batches.len() == batches && rendered.batches.iter().all(|batch| batch.len() == pixels);
-    if !whole {
-        return Err(Fault::Malformed("the number of batches or pixels is wrong".to_owned()));
-    }
-    if rendered.batches.iter().flatten().flatten().any(|value| !value.is_finite()) {
-        return Err(Fault::Malformed("a mean that is not finite".to_owned()));
-    }
-    Ok(rendered)
 }

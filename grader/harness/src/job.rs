@@ -1,15 +1,15 @@
-//! Why a job of a submission could not be finished.
+//! Errors of jobs: faults of the submission apart from failures of the harness.
 
 use verdict::check::Fault;
 use verdict::error::Error;
 
-/// Why a job could not be finished, and so whose matter that is.
+/// Why a job could not be finished, and who can fix it.
 #[derive(Debug, thiserror::Error)]
 pub enum JobError {
-    /// The submission did not answer as it should: a finding about it.
+    /// The submission gave no valid answer: a finding for its report.
     #[error("{0}")]
     Submission(Fault),
-    /// Something else is wrong.
+    /// The harness or the machine failed.
     #[error(transparent)]
     Harness(#[from] Error),
 }
@@ -21,7 +21,7 @@ impl From<Fault> for JobError {
 }
 
 impl JobError {
-    /// The error of a program that is trusted, such as the solution: its faults are the harness's.
+    /// The error for a trusted program, such as the solution, whose faults count as failures of the harness.
     pub fn of_trusted(self, program: &str) -> Error {
         match self {
             Self::Submission(fault) => Error::Harness(format!("{program}: {fault}")),
@@ -30,10 +30,10 @@ impl JobError {
     }
 }
 
-/// Takes faults of a submission apart from everything else, where they are looked at rather than passed on.
+/// Separates faults of a submission, as the inner error, from failures of the harness.
 ///
 /// # Errors
-/// What is not the submission's doing.
+/// Failures of the harness.
 pub fn apart<T>(answer: Result<T, JobError>) -> Result<Result<T, Fault>, Error> {
     match answer {
         Ok(answer) => Ok(Ok(answer)),

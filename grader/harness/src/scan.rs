@@ -1,36 +1,36 @@
-//! What a submission names that it has no business with: files, processes, the network.
+//! Uses of files, processes or the network in a submission's source.
 //!
-//! This is for people: it says which line asks for what the sandbox refuses. It guarantees nothing, and costs no points
-//! by itself; the sandbox does not need it. Comments and strings are not code and are never hit.
+//! The findings tell a person which line asks for something that the sandbox refuses. They guarantee nothing, cost no
+//! points by themselves, and the sandbox does not depend on them. Comments and strings are skipped.
 
 use std::str::FromStr;
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use verdict::submission::SourceFinding;
 
-/// Findings that are listed at most.
+/// Maximum number of findings.
 const LISTED: usize = 20;
 
-/// Parts of the standard library that reach out of the process.
+/// Modules of the standard library that reach out of the process, and why a submission does not need them.
 const MODULES: [(&str, &str); 6] = [
-    ("process", "a submission may neither start nor end processes"),
-    ("fs", "a submission has no files"),
-    ("net", "a submission has no network"),
-    ("env", "a submission has no environment"),
-    ("os", "a submission has nothing to ask of the operating system"),
-    ("path", "a submission has no files"),
+    ("process", "a submission must not start or end processes"),
+    ("fs", "a submission cannot access files"),
+    ("net", "a submission cannot access the network"),
+    ("env", "a submission cannot read the environment"),
+    ("os", "a submission cannot use the operating system"),
+    ("path", "a submission cannot access files"),
 ];
 
-/// Macros that look at the machine that compiles.
+/// Macros that read files or variables of the compiling machine, and why a submission does not need them.
 const MACROS: [(&str, &str); 5] = [
-    ("include", "a submission is one file"),
-    ("include_str", "a submission reads no files, not even when it is compiled"),
-    ("include_bytes", "a submission reads no files, not even when it is compiled"),
-    ("env", "a submission has no environment, not even when it is compiled"),
-    ("option_env", "a submission has no environment, not even when it is compiled"),
+    ("include", "a submission must be a single file"),
+    ("include_str", "a submission cannot read files, not even at compile time"),
+    ("include_bytes", "a submission cannot read files, not even at compile time"),
+    ("env", "a submission cannot read the environment, not even at compile time"),
+    ("option_env", "a submission cannot read the environment, not even at compile time"),
 ];
 
-/// Looks through a source. One that is no Rust has no findings: the compiler says more about it.
+/// Finds such uses in a source. A source that is not Rust has no findings: the compiler reports it.
 pub fn scan(source: &str) -> Vec<SourceFinding> {
     let Ok(tokens) = TokenStream::from_str(source) else { return Vec::new() };
     let mut findings = Vec::new();
@@ -64,7 +64,7 @@ pub fn scan(source: &str) -> Vec<SourceFinding> {
     findings
 }
 
-/// `std::` or `core::`, whatever comes then.
+/// Matches `std::` or `core::`.
 fn is_path_into_std(tokens: &[TokenTree]) -> bool {
     matches!(tokens, [root, one, two, ..]
         if matches!(name(root).as_deref(), Some("std" | "core")) && is_punctuation(one, ':') && is_punctuation(two, ':'))
@@ -83,7 +83,7 @@ fn macro_call(tokens: &[TokenTree]) -> Option<(String, &'static str)> {
     Some((format!("{called}!"), why))
 }
 
-/// `#[path = …]`, in `cfg_attr` too.
+/// Matches `#[path = …]`, in `cfg_attr` too.
 fn attribute(tokens: &[TokenTree]) -> Option<(String, &'static str)> {
     let [mark, TokenTree::Group(group), ..] = tokens else { return None };
     let attribute: Vec<TokenTree> = group.stream().into_iter().collect();
@@ -95,10 +95,10 @@ fn attribute(tokens: &[TokenTree]) -> Option<(String, &'static str)> {
     };
     let found = is_punctuation(mark, '#')
         && (sets_path(&attribute) || (0..inner.len()).any(|start| sets_path(&inner[start..])));
-    found.then(|| ("#[path]".to_owned(), "a submission is one file"))
+    found.then(|| ("#[path]".to_owned(), "a submission must be a single file"))
 }
 
-/// An identifier, raw or not.
+/// An identifier without the `r#` of raw ones.
 fn name(token: &TokenTree) -> Option<String> {
     let TokenTree::Ident(identifier) = token else { return None };
     let name = identifier.to_string();

@@ -1,4 +1,4 @@
-//! Whether submissions can be graded on this machine, found out with an empty one before any code of a student is compiled.
+//! A trial with an empty submission, before any code of a student is compiled: can this machine grade at all?
 
 use arty::integrator::{Settings, Technique};
 use arty::math::{Rgb, Vec3};
@@ -13,11 +13,11 @@ use crate::host_process::HostProcess;
 use crate::job::JobError;
 use crate::sandbox::{Level, Limits};
 
-/// Has an empty submission compiled, started, and render a picture. What it cannot do is the fault of the machine or of the
-/// framework, and not of the submissions that cannot do it either.
+/// Compiles and starts an empty submission and lets it render an image. A failure is the fault of the machine or the
+/// framework, so it is never blamed on a student's submission.
 ///
 /// # Errors
-/// If it cannot, or if the sandbox is worse than `limits.min_level`.
+/// If any step fails, or if the sandbox is weaker than `limits.min_level`.
 pub fn require_that_submissions_work(framework: &Framework, limits: &Limits) -> Result<()> {
     let program = compile_empty(framework, limits)?;
     let mut process = HostProcess::start(&program, 1)?;
@@ -41,7 +41,7 @@ fn failed(fault: &Fault) -> Error {
     Error::Harness(format!("not even an empty submission works here: {fault}"))
 }
 
-/// A triangle in front of a camera, and no light.
+/// A scene with one triangle in front of the camera and no light.
 fn empty_scene() -> SceneDescription {
     let corner = |x: f32, y: f32| Vec3::new(x, y, 0.0);
     let triangle = MeshTriangle { positions: [0, 1, 2], normals: None, uvs: None, material: 0 };
@@ -67,10 +67,10 @@ fn empty_scene() -> SceneDescription {
     }
 }
 
-/// Refuses a sandbox that is worse than `least`.
+/// Refuses a sandbox that is weaker than `min_level`.
 ///
 /// # Errors
-/// If it is.
+/// If it is weaker.
 pub fn require(sandbox: &Sandbox, min_level: Level) -> Result<()> {
     if sandbox.level >= min_level {
         return Ok(());

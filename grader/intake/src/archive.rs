@@ -9,7 +9,7 @@ use super::collect::{Collector, Stop};
 use super::names::{self, Kind};
 use super::{Note, Refusal, limits};
 
-/// What an archive is by its first bytes: names lie.
+/// Format of an archive by its first bytes, since names cannot be trusted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Container {
     Zip,
@@ -32,7 +32,7 @@ impl Container {
     }
 }
 
-/// Collects the files of an archive that lies in `depth` others.
+/// Collects the files of an archive that is inside `depth` others.
 pub(super) fn collect(
     name: &str,
     bytes: &[u8],
@@ -138,7 +138,7 @@ fn collect_tar(
     Ok(())
 }
 
-/// True if an entry is read. What is no regular file within the archive is remembered, if it would matter.
+/// True if an entry is to be read. Links and paths that lead out of the archive are recorded if they would matter.
 fn is_wanted(entry: &str, link: bool, collector: &mut Collector) -> bool {
     if !collector.wants(entry) {
         return false;
@@ -159,19 +159,19 @@ fn is_wanted(entry: &str, link: bool, collector: &mut Collector) -> bool {
     false
 }
 
-/// A name as text: as UTF-8 or, like old zip programs wrote it, in some other encoding.
+/// Decodes a name: UTF-8, or another encoding as written by old zip programs.
 fn text_of_name(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// Counts what comes out of a decompressor, and stops it when that is too much for what went in.
+/// Counts the output of a decompressor, and stops it if that is too much for its input.
 struct Counted<R> {
     inner: R,
     unpacked: u64,
     packed: u64,
 }
 
-/// The text by which [`is_limit`] knows a reader that was stopped.
+/// Error text by which [`is_limit`] recognizes a reader that was stopped.
 const LIMIT: &str = "the stream unpacks to too much";
 
 impl<R: Read> Read for Counted<R> {

@@ -1,4 +1,4 @@
-//! Gathering the files of a submission that matter, and choosing among them.
+//! Collects the relevant files of a submission and selects the source to grade.
 
 use std::collections::BTreeSet;
 use std::io::Read;
@@ -17,10 +17,10 @@ struct Found {
     bytes: Vec<u8>,
 }
 
-/// Why nothing more is read of a submission.
+/// Reading of a submission was stopped; the reason is in [`Collection::stopped`].
 pub(super) struct Stop;
 
-/// What was found so far.
+/// Files found so far.
 #[derive(Default)]
 pub(super) struct Collector {
     named: Vec<Found>,
@@ -28,19 +28,19 @@ pub(super) struct Collector {
     explanations: Vec<Explanation>,
     /// Sources that cannot be graded, and why.
     bad_sources: Vec<Refusal>,
-    /// What else could not be read: the reason for a refusal if nothing is found, a note if something is.
+    /// Other things that could not be read: a refusal if no source is found, otherwise a note.
     obstacles: Vec<Refusal>,
-    /// The reason why reading was stopped.
+    /// Why reading was stopped; `None` if it was not.
     fatal: Option<Refusal>,
     notes: Vec<Note>,
     checksums: Vec<String>,
     entries: usize,
     unpacked: u64,
-    /// The first names that were come upon.
+    /// Names of the first files that are not relevant.
     seen: Vec<String>,
 }
 
-/// How many names of other files are told where the source is missing.
+/// Maximum number of names of other files in the message of a missing source.
 const NAMED: usize = 5;
 
 impl Collector {
@@ -53,7 +53,7 @@ impl Collector {
         Ok(())
     }
 
-    /// Counts bytes that came out of a compressed stream of so many bytes.
+    /// Counts bytes unpacked from a compressed stream of so many bytes.
     pub(super) fn count_unpacked(&mut self, unpacked: u64, packed: u64) -> Result<(), Stop> {
         self.unpacked += unpacked;
         let too_dense = unpacked > limits::ATTACHMENT && unpacked / packed.max(1) > limits::RATIO;
@@ -63,23 +63,23 @@ impl Collector {
         Ok(())
     }
 
-    /// Reads nothing more.
+    /// Stops reading, with a reason.
     pub(super) fn stop(&mut self, refusal: Refusal) -> Stop {
         self.fatal.get_or_insert(refusal);
         Stop
     }
 
-    /// Remembers something that could not be read.
+    /// Records something that could not be read.
     pub(super) fn obstacle(&mut self, refusal: Refusal) {
         self.obstacles.push(refusal);
     }
 
-    /// Remembers something odd.
+    /// Records a note.
     pub(super) fn note(&mut self, note: Note) {
         self.notes.push(note);
     }
 
-    /// Remembers the checksum of a file as it was sent.
+    /// Records the checksum of a file as it was sent.
     pub(super) fn checksum(&mut self, bytes: &[u8]) {
         self.checksums.push(md5_of(bytes));
     }
@@ -95,7 +95,7 @@ impl Collector {
         names::kind(name) != Kind::Other
     }
 
-    /// Takes a file by its name. `depth` is the number of archives that it lies in.
+    /// Takes a file according to its name. `depth` is the number of archives that it is inside.
     pub(super) fn offer(&mut self, name: &str, reader: &mut dyn Read, depth: usize) -> Result<(), Stop> {
         match names::kind(name) {
             Kind::Named | Kind::OtherSource => self.offer_source(name, reader),
@@ -147,17 +147,17 @@ impl Collector {
         }
     }
 
-    /// Takes the one file that was named, whatever its name.
+    /// Takes a file as the source, whatever its name.
     pub(super) fn offer_as_source(&mut self, found_under: &str, bytes: Vec<u8>) {
         self.named.push(Found { name: found_under.to_owned(), bytes });
     }
 
-    /// Notes a source that cannot be graded.
+    /// Records a source that cannot be graded.
     pub(super) fn bad_source(&mut self, refusal: Refusal) {
         self.bad_sources.push(refusal);
     }
 
-    /// Chooses the source that is graded.
+    /// Selects the source to grade.
     pub(super) fn conclude(mut self, path: PathBuf, starter: &str) -> Intake {
         let outcome = match self.fatal.take() {
             Some(refusal) => Err(refusal),
@@ -217,18 +217,18 @@ impl Collector {
     }
 }
 
-/// Bytes as text that is the same on all systems, for comparisons only.
+/// Bytes as text with line ends replaced, for comparisons only.
 fn comparable(bytes: &[u8]) -> String {
     with_our_line_ends(&String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)))
 }
 
-/// True for what defines the one thing that every submission has to: other files of the framework only name it.
+/// True for a file that defines `PathTracer`, as every submission must: other files of the framework only use it.
 fn is_submission(bytes: &[u8]) -> bool {
     let part = b"struct PathTracer";
     bytes.windows(part.len()).any(|window| window == part)
 }
 
-/// All that a reader gives; `None` if that is more than `most` bytes.
+/// Reads to the end; `None` if there are more than `max` bytes.
 pub(super) fn read_at_most(reader: &mut dyn Read, max: u64) -> std::io::Result<Option<Vec<u8>>> {
     let mut bytes = Vec::new();
     reader.take(max + 1).read_to_end(&mut bytes)?;

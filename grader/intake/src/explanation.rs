@@ -1,11 +1,11 @@
-//! The written explanation, which a person marks.
+//! Written explanations, which a tutor marks.
 
 use verdict::submission::{Explanation, ExplanationKind};
 
 use super::names::base;
 use super::text::decode;
 
-/// Keeps what is needed of a file.
+/// Makes an explanation from a file.
 pub(super) fn explanation(name: &str, bytes: &[u8]) -> Explanation {
     let is_pdf = base(name).to_lowercase().ends_with(".pdf");
     let text = if is_pdf { None } else { decode(bytes, &mut Vec::new()).ok() };
@@ -18,7 +18,7 @@ pub(super) fn explanation(name: &str, bytes: &[u8]) -> Explanation {
     }
 }
 
-/// True for texts that come with the project or its tools, and that a student who sends all of it sends along.
+/// True for texts of the project or its tools, which are in a submission if a student sends the whole checkout.
 pub(super) fn is_ordinary(explanation: &Explanation) -> bool {
     let name = base(&explanation.name).to_lowercase();
     let ordinary = ["readme", "architecture", "sheet", "kill-matrix", "license", "licence", "cmakelists"];

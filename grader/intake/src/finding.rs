@@ -1,50 +1,49 @@
-//! What can be said of a submission before it is compiled.
+//! Findings about a submission before it is compiled.
 
 use verdict::submission::{FILE_NAME, IntakeFinding};
 
 use super::limits;
 use verdict::text::harmless;
 
-/// Why a submission is not graded. Names of files in it are printed as they are, but for characters that would steer a
-/// terminal.
+/// Why a submission is not graded. Names of files are printed without control characters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Refusal {
-    /// `missing-file`: there is no source in it, but maybe other files, of which some are named.
+    /// `missing-file`: it contains no source. Names some of the other files in it.
     MissingFile(Vec<String>),
-    /// `several-candidates`: there are several sources that are not the same.
+    /// `several-candidates`: it contains several sources that differ.
     SeveralCandidates(Vec<String>),
-    /// `too-large`: a source or an archive is larger than any that is meant seriously.
+    /// `too-large`: a source or an archive exceeds its [limit](crate::limits). Name, and size in bytes.
     TooLarge(String, u64),
-    /// `not-source`: the file has the right name, but is something else.
+    /// `not-source`: the file has the right name but another format.
     NotSource(&'static str),
-    /// `empty`: there is nothing in the source.
+    /// `empty`: the source is empty.
     Empty,
-    /// `encoding`: it says that it is UTF-16, and is not.
+    /// `encoding`: it is marked as UTF-16 but is not.
     Encoding,
-    /// `nul-bytes`: no text has these.
+    /// `nul-bytes`: it contains NUL bytes.
     NulBytes,
-    /// `link`: the source is a link to somewhere else.
+    /// `link`: the source is a link.
     Link(String),
-    /// `outside-path`: the source's name in the archive leads out of the archive.
+    /// `outside-path`: the source's path leads out of its archive.
     OutsidePath(String),
-    /// `bomb`: it unpacks to more than any submission has.
+    /// `bomb`: it unpacks to more than the [limits](crate::limits) allow.
     Bomb(String),
-    /// `nested-archive`: an archive in an archive in an archive.
+    /// `nested-archive`: an archive inside an archive inside an archive.
     NestedArchive(String),
-    /// `unsupported-archive`: of a kind that is not read.
+    /// `unsupported-archive`: an archive of another format.
     UnsupportedArchive(String),
-    /// `encrypted`: a password is needed.
+    /// `encrypted`: an archive with a password.
     Encrypted(String),
-    /// `broken-archive`: it cannot be read to its end.
+    /// `broken-archive`: an archive that cannot be read to its end.
     BrokenArchive(String, String),
-    /// `git`: the repository has no commit that can be read.
+    /// `git`: the repository has no readable commit.
     Git(String),
-    /// `unreadable`: the machine does not let the grader read it.
+    /// `unreadable`: the operating system refuses to read it.
     Unreadable(String, String),
 }
 
 impl Refusal {
-    /// The code, for tables and scripts.
+    /// Code for tables and scripts.
     pub fn code(&self) -> &'static str {
         match self {
             Self::MissingFile(_) => "missing-file",
@@ -91,20 +90,24 @@ impl std::fmt::Display for Refusal {
                 };
                 write!(f, "{}: {size} bytes are too many (at most {max})", harmless(name))
             }
-            Self::NotSource(what) => write!(f, "its {FILE_NAME} is {what}, not a text"),
+            Self::NotSource(what) => write!(f, "its {FILE_NAME} is {what}, not a text file"),
             Self::Empty => write!(f, "its {FILE_NAME} is empty"),
-            Self::Encoding => write!(f, "its {FILE_NAME} begins like UTF-16, but is not; save it as UTF-8"),
-            Self::NulBytes => write!(f, "its {FILE_NAME} has NUL bytes: it is no text; save it as UTF-8"),
+            Self::Encoding => {
+                write!(f, "its {FILE_NAME} is marked as UTF-16 but is not valid; save it as UTF-8")
+            }
+            Self::NulBytes => {
+                write!(f, "its {FILE_NAME} contains NUL bytes, so it is not a text file; save it as UTF-8")
+            }
             Self::Link(name) => write!(f, "{} is a link, and links are not followed", harmless(name)),
-            Self::OutsidePath(name) => write!(f, "{} leads out of its archive", harmless(name)),
-            Self::Bomb(why) => write!(f, "it unpacks to more than any submission has: {why}"),
+            Self::OutsidePath(name) => write!(f, "the path {} leads out of its archive", harmless(name)),
+            Self::Bomb(why) => write!(f, "it unpacks to more than is allowed: {why}"),
             Self::NestedArchive(name) => {
-                write!(f, "{}: an archive in an archive in an archive is not opened", harmless(name))
+                write!(f, "{}: archives nested more than twice are not opened", harmless(name))
             }
             Self::UnsupportedArchive(name) => {
                 write!(
                     f,
-                    "{}: archives of this kind are not read (.zip, .tar.gz and .tar are)",
+                    "{}: this archive format is not supported; use .zip, .tar.gz or .tar",
                     harmless(name)
                 )
             }
@@ -113,41 +116,40 @@ impl std::fmt::Display for Refusal {
                 write!(f, "{}: the archive is broken ({})", harmless(name), harmless(why))
             }
             Self::Git(why) => {
-                write!(f, "the git repository has no commit that can be read: {}", harmless(why))
+                write!(f, "the git repository has no readable commit: {}", harmless(why))
             }
             Self::Unreadable(name, why) => write!(f, "{} cannot be read: {why}", harmless(name)),
         }
     }
 }
 
-/// What is odd about a submission that is graded all the same.
+/// Anything odd about a submission that does not prevent grading.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Note {
-    /// `byte-order-mark`: one at the start was removed.
+    /// `byte-order-mark`: a byte order mark was removed.
     ByteOrderMark,
-    /// `utf-16`: it was turned into UTF-8.
+    /// `utf-16`: it was converted from UTF-16.
     Utf16,
-    /// `windows-1252`: it is not UTF-8, and was read as Windows-1252, of which Latin-1 is a part; the first line that
-    /// this matters for.
+    /// `windows-1252`: it is not UTF-8 and was read as Windows-1252. The first line that is not UTF-8, counted from 1.
     Windows1252(usize),
-    /// `line-ends`: those of another system were turned into `\n`.
+    /// `line-ends`: line ends of another system were replaced by `\n`.
     LineEnds,
-    /// `copies`: there are several that are the same.
+    /// `copies`: it contains several equal sources.
     Copies(Vec<String>),
     /// `other-name`: the only source has another name.
     OtherName(String),
-    /// `starter-too`: an untouched starting file lies beside it, and was passed over.
+    /// `starter-too`: it also contains the unchanged starting file, which was skipped.
     StarterToo(String),
-    /// `untouched`: it is the starting file.
+    /// `untouched`: the source is the unchanged starting file.
     Untouched,
-    /// `uncommitted`: the file on disk is not that of the last commit, which counts.
+    /// `uncommitted`: the file on disk differs from the last commit, which is graded.
     Uncommitted(String),
-    /// `passed-over`: something in it could not be read, and did not have to be.
+    /// `passed-over`: something in it could not be read but was not needed.
     PassedOver(String),
 }
 
 impl Note {
-    /// The code, for tables and scripts.
+    /// Code for tables and scripts.
     pub fn code(&self) -> &'static str {
         match self {
             Self::ByteOrderMark => "byte-order-mark",
@@ -168,21 +170,21 @@ impl std::fmt::Display for Note {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::ByteOrderMark => write!(f, "a byte order mark was removed"),
-            Self::Utf16 => write!(f, "it was turned from UTF-16 into UTF-8"),
+            Self::Utf16 => write!(f, "it was converted from UTF-16 to UTF-8"),
             Self::Windows1252(line) => {
                 write!(f, "line {line} is not UTF-8; the file was read as Windows-1252 (Latin-1)")
             }
             Self::LineEnds => write!(f, "line ends of another system were replaced"),
-            Self::Copies(names) => write!(f, "there are {} copies of it, all the same", names.len()),
+            Self::Copies(names) => write!(f, "it contains {} equal copies of the source", names.len()),
             Self::OtherName(name) => write!(f, "it is called {}, not {FILE_NAME}", harmless(name)),
             Self::StarterToo(name) => {
-                write!(f, "{} is the untouched starting file and was passed over", harmless(name))
+                write!(f, "{} is the unchanged starting file and was skipped", harmless(name))
             }
-            Self::Untouched => write!(f, "it is the untouched starting file"),
+            Self::Untouched => write!(f, "it is the unchanged starting file"),
             Self::Uncommitted(name) => {
                 write!(f, "{} has changes that are not committed; the last commit is graded", harmless(name))
             }
-            Self::PassedOver(what) => write!(f, "passed over: {}", harmless(what)),
+            Self::PassedOver(what) => write!(f, "skipped: {}", harmless(what)),
         }
     }
 }

@@ -63,7 +63,7 @@ fn collect_file(path: &Path, name: &str, collector: &mut Collector) -> std::resu
     }
 }
 
-/// Collects one file that was named: an archive, an explanation, or a source under any name.
+/// Collects one file given by its path: an archive, an explanation, or a source with any name.
 pub(super) fn collect_named_file(path: &Path, collector: &mut Collector) {
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let unreadable = |error: std::io::Error| Refusal::Unreadable(name.clone(), error.to_string());
@@ -90,7 +90,7 @@ pub(super) fn collect_named_file(path: &Path, collector: &mut Collector) {
     }
 }
 
-/// A path below a folder as the submission's owner would name it.
+/// A path relative to the submission's folder.
 fn name_in(folder: &Path, path: &Path) -> String {
     path.strip_prefix(folder).unwrap_or(path).to_string_lossy().into_owned()
 }

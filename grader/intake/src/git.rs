@@ -10,7 +10,7 @@ use super::text::with_our_line_ends;
 use super::{Note, Refusal, limits};
 use verdict::error::{Error, Result};
 
-/// The folder of a repository's objects: the `.git` of a checkout, or the folder itself if it is a bare repository.
+/// Git directory of a folder: its `.git`, or the folder itself if it is a bare repository; `None` if it is neither.
 pub(super) fn repository_of(folder: &Path) -> Option<PathBuf> {
     let is_repository = |folder: &Path| {
         let is_dir = |name| std::fs::symlink_metadata(folder.join(name)).is_ok_and(|entry| entry.is_dir());
@@ -26,7 +26,7 @@ pub(super) fn repository_of(folder: &Path) -> Option<PathBuf> {
     }
 }
 
-/// Collects the files of the last commit. The inner error says that reading was stopped.
+/// Collects the files of the last commit. The inner error means that reading was stopped by a limit.
 ///
 /// # Errors
 /// If git cannot be run.
@@ -86,7 +86,7 @@ pub(super) fn collect(
     Ok(Ok(()))
 }
 
-/// True if there is such a file on disk, and it is not the one that was committed.
+/// True if the file exists on disk and differs from the committed one.
 fn differs_on_disk(path: &Path, blob: &[u8]) -> bool {
     let text = |bytes: &[u8]| with_our_line_ends(&String::from_utf8_lossy(bytes));
     let is_file = std::fs::symlink_metadata(path).is_ok_and(|entry| entry.is_file());
@@ -94,7 +94,7 @@ fn differs_on_disk(path: &Path, blob: &[u8]) -> bool {
     is_file && matches!(read(), Ok(Some(bytes)) if text(&bytes) != text(blob))
 }
 
-/// What git prints, at most so many bytes of it; `None` if it fails.
+/// Runs git and returns at most `max` bytes of its output; `None` if git fails.
 fn git(repository: &Path, arguments: &[&str], max: u64) -> Result<Option<Vec<u8>>> {
     let mut command = Command::new("git");
     command

@@ -1,10 +1,10 @@
-//! Taking in what was sent: from a file, folder, archive or git repository to the one source that is graded.
+//! Intake: finds the one source to grade in a file, folder, archive or git repository.
 //!
-//! [`take`] looks through a submission for files of the name [`FILE_NAME`], wherever they lie. Archives are streamed,
-//! never unpacked to disk, and nothing that they say is believed: all is counted against the limits of [`limits`].
-//! One archive may lie in another, since course systems pack the archives of students once more. Of a git repository
-//! the last commit counts, read without a checkout. What cannot be graded is a [`Refusal`] with a code, what is odd
-//! but harmless is a [`Note`].
+//! [`take`] searches a submission for files called [`FILE_NAME`] in any folder. Archives are streamed, never unpacked to
+//! disk, and nothing in their headers is trusted: everything is counted against [`limits`]. One archive may be inside
+//! another, since course systems pack the archives of students again. Of a git repository, the last commit is read
+//! without a checkout. A submission that cannot be graded gets a [`Refusal`] with a code; anything odd but harmless
+//! becomes a [`Note`].
 
 mod archive;
 mod collect;
@@ -27,21 +27,21 @@ pub use finding::{Note, Refusal};
 
 use collect::Collector;
 
-/// A submission as it was taken in.
+/// Result of taking in a submission.
 #[derive(Clone, Debug)]
 pub struct Intake {
-    /// What is graded, or why nothing is.
+    /// The source to grade, or why there is none.
     pub outcome: std::result::Result<Submission, Refusal>,
-    /// What is odd, but does not keep it from being graded.
+    /// Anything odd that does not prevent grading.
     pub notes: Vec<Note>,
-    /// The written explanation, for a person to mark; usually one.
+    /// Written explanations for a tutor to mark; usually one.
     pub explanations: Vec<Explanation>,
-    /// MD5 of each file as it was sent and of the source in it, in hexadecimal: a student may have named either.
+    /// MD5 of each file as it was sent and of the source in it, in hexadecimal: a student may have sent either checksum.
     pub checksums: Vec<String>,
 }
 
 /// Takes in a submission: all files, folders and archives that one student sent. `starter` is the text of the starting
-/// file, which counts only if there is nothing else; it may be empty.
+/// file, or empty: a file equal to it counts only if there is no other source.
 ///
 /// # Errors
 /// If a path does not exist, or git is needed and missing. Faults of the submission are in its `outcome`.
@@ -61,15 +61,15 @@ pub fn take(paths: &[PathBuf], starter: &str) -> Result<Intake> {
     Ok(collector.conclude(path, starter))
 }
 
-/// The source of a submission that somebody named: a source under any name, a folder, an archive or a git repository.
+/// Reads the source of a submission: a source file with any name, a folder, an archive or a git repository.
 ///
 /// # Errors
-/// If there is nothing to grade in it; [`take`] tells more.
+/// If it contains nothing to grade.
 pub fn read(path: &Path) -> Result<Submission> {
     take(&[path.to_owned()], "")?.outcome.map_err(|refusal| Error::file(path, refusal))
 }
 
-/// MD5 in hexadecimal, in small letters.
+/// MD5 in lower-case hexadecimal.
 pub fn md5_of(bytes: &[u8]) -> String {
     Md5::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }

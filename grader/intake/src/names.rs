@@ -1,40 +1,40 @@
-//! Names of files that other people chose.
+//! Names of files in a submission.
 
-/// The part of a path after the last separator of either kind.
+/// The part of a path after the last `/` or `\`.
 pub(super) fn base(name: &str) -> &str {
     name.rsplit(['/', '\\']).next().unwrap_or(name)
 }
 
-/// True if a name within an archive leads out of the place where it would be unpacked.
+/// True if a name in an archive leads out of the folder that it would be unpacked to.
 pub(super) fn leads_out(name: &str) -> bool {
     let drive = name.as_bytes().get(1) == Some(&b':');
     name.starts_with(['/', '\\']) || drive || name.split(['/', '\\']).any(|part| part == "..")
 }
 
-/// True for what tools leave behind, and nobody means to hand in.
+/// True for files that tools leave behind and that no student means to hand in.
 pub(super) fn is_left_behind(name: &str) -> bool {
     name.split(['/', '\\'])
         .any(|part| matches!(part, "target" | ".git" | "__MACOSX") || part.starts_with("._"))
 }
 
-/// What a file's name says that it is.
+/// Kind of a file by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// `render_pt.rs`, in capitals or not.
+    /// `render_pt.rs`, in upper or lower case.
     Named,
-    /// Another source in Rust.
+    /// Another Rust source.
     OtherSource,
     /// `.txt`, `.md` or `.pdf`.
     Explanation,
-    /// An archive of a kind that is read.
+    /// An archive of a supported format.
     Archive,
-    /// An archive of another kind.
+    /// An archive of another format.
     UnknownArchive,
     /// Anything else.
     Other,
 }
 
-/// What a file's name says that it is.
+/// Kind of a file by its name.
 pub(super) fn kind(name: &str) -> Kind {
     let name = base(name).to_lowercase();
     let ends = |list: &[&str]| list.iter().any(|end| name.ends_with(end));

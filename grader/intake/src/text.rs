@@ -1,11 +1,11 @@
-//! From bytes to text.
+//! Decoding of sources and explanations.
 
 use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
 
 use super::{Note, Refusal};
 
-/// The text of a source. An umlaut in another encoding, most likely within a comment, must not cost all points: what
-/// is neither UTF-8 nor marked as UTF-16 is read as Windows-1252.
+/// Decodes a source. Bytes that are neither UTF-8 nor marked as UTF-16 are read as Windows-1252, so that an umlaut in a
+/// comment does not cost all points.
 pub(super) fn decode(bytes: &[u8], notes: &mut Vec<Note>) -> Result<String, Refusal> {
     if let Some(what) = something_else(bytes) {
         return Err(Refusal::NotSource(what));
@@ -33,7 +33,7 @@ pub(super) fn decode(bytes: &[u8], notes: &mut Vec<Note>) -> Result<String, Refu
     Ok(with_our_line_ends(&text))
 }
 
-/// The text as UTF-8, or else as Windows-1252.
+/// Decodes UTF-8, or else Windows-1252.
 fn windows_1252(bytes: &[u8], notes: &mut Vec<Note>) -> String {
     match std::str::from_utf8(bytes) {
         Ok(text) => text.to_owned(),
@@ -45,12 +45,12 @@ fn windows_1252(bytes: &[u8], notes: &mut Vec<Note>) -> String {
     }
 }
 
-/// The same text whatever system it was written on.
+/// Replaces line ends by `\n`.
 pub(super) fn with_our_line_ends(text: &str) -> String {
     text.replace("\r\n", "\n").replace('\r', "\n")
 }
 
-/// What a file is by its first bytes, if it is one of the things that get renamed to `.rs`.
+/// Recognizes files that are often renamed to `.rs`, by their first bytes; `None` for anything else.
 fn something_else(bytes: &[u8]) -> Option<&'static str> {
     let kinds: [(&[u8], &str); 8] = [
         (b"PK\x03\x04", "a zip archive or an Office document"),

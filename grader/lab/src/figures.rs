@@ -71,7 +71,12 @@ pub const FIGURES: [(&str, &[Panel]); 3] = [
 ///
 /// # Errors
 /// If a scene cannot be read or the program fails.
-pub fn render(workspace: &Workspace, program: &SubmissionProgram, panels: &[Panel], seed: u64) -> Result<Image> {
+pub fn render(
+    workspace: &Workspace,
+    program: &SubmissionProgram,
+    panels: &[Panel],
+    seed: u64,
+) -> Result<Image> {
     let mut pictures = Vec::new();
     for Panel { scene, settings, samples, label } in panels {
         let description = load(&workspace.scene_file(scene))?.description;

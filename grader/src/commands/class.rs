@@ -103,7 +103,7 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
 impl Arguments {
     /// The members of the class with their submissions and receipt times.
     fn class(&self, policy: Option<&Policy>) -> Result<Class> {
-        let students = self.students().map_or(Ok(Vec::new()), |path| roster::load(path))?;
+        let students = self.students().map_or(Ok(Vec::new()), roster::load)?;
         let mut class = Class::find(&self.folder, &students)?;
         let zone = policy.map_or(TimeZone::UTC, |policy| policy.zone().clone());
         if let Some(path) = &self.manifest {

@@ -106,10 +106,9 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
         note(format_args!("report: {}", file.display()));
     }
     export::at_the_end(&report, &arguments.export, &arguments.out)?;
-    match completed {
-        Err(error @ Error::Output(_)) => return Err(error),
-        // The points are saved: a script that waits for them must not be told that grading failed.
-        Err(_) | Ok(()) => {}
+    // After any other error the points are valid and saved: a script must not be told that grading failed.
+    if let Err(error @ Error::Output(_)) = completed {
+        return Err(error);
     }
     let too_few = arguments.fail_under.is_some_and(|min| report.points.earned < min);
     Ok(ExitCode::from(u8::from(too_few)))

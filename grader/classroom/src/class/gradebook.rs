@@ -1,4 +1,4 @@
-//! The class as a table: `gradebook.csv`, and `class.json` with everything.
+//! The rows of a class, as a table (`gradebook.csv`) and as data (`class.json`).
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -16,16 +16,16 @@ use verdict::output;
 use verdict::report::Provenance;
 use verdict::submission::IntakeFinding;
 
-/// The version of the format of `class.json`.
+/// Version of the format of `class.json`.
 const SCHEMA: &str = "arty-class/1";
 
-/// How a row came to its points.
+/// Where the points of a row come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum State {
-    /// It was compiled, or tried to.
+    /// The submission was graded; it may not have compiled.
     Graded,
-    /// It could not be taken in.
+    /// The submission could not be taken in.
     Refused,
     /// Nothing was handed in.
     Missing,
@@ -33,10 +33,10 @@ pub enum State {
     Harness,
 }
 
-/// What is known of one student or submission.
+/// One student or submission.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
-    /// The student, and the name of the folder below `submissions/`.
+    /// Unique name of the student and of the folder in `submissions/`.
     pub key: String,
     /// Family name.
     pub last_name: String,
@@ -48,33 +48,33 @@ pub struct Row {
     pub email: String,
     /// Numbers in course systems.
     pub numbers: Vec<String>,
-    /// False if it is nobody's on the roster.
+    /// False if the student is not on the roster.
     pub on_roster: bool,
-    /// The name of the submission's folder or file.
+    /// Name of the submission's folder or file.
     pub sent: String,
-    /// How it came to its points.
+    /// Where the points come from.
     pub state: State,
-    /// Why points are missing: a code and a sentence.
+    /// Main reason why points are missing.
     pub reason: Option<IntakeFinding>,
-    /// What is odd about it.
+    /// Notes of intake.
     pub notes: Vec<IntakeFinding>,
     /// Raw points of each task.
     pub tasks: BTreeMap<String, Option<f64>>,
-    /// The sum of raw points.
+    /// Sum of raw points.
     pub raw: Option<f64>,
-    /// When it came, as it was recorded.
+    /// Receipt time.
     pub received_at: Option<String>,
-    /// What the policy says.
+    /// Lateness; none without a late policy.
     pub lateness: Option<Lateness>,
-    /// The points that count, of the tasks that are graded automatically or have been marked.
+    /// Points that count, for tasks that are graded automatically or have been marked.
     pub points: Option<f64>,
     /// Written explanations, by name.
     pub explanations: Vec<String>,
-    /// When it was graded.
+    /// Time of grading.
     pub graded_at: Option<String>,
     /// BLAKE3 of the source.
     pub source: String,
-    /// True if these are earlier points, since the grader failed this time.
+    /// True if the points are of an earlier run because the grader failed in this one.
     pub kept: bool,
 }
 
@@ -105,19 +105,19 @@ impl Row {
         }
     }
 
-    /// Of somebody who handed in nothing.
+    /// Row of a student who handed in nothing.
     pub(super) fn missing(member: &Member) -> Self {
         let reason =
             IntakeFinding { code: "missing".to_owned(), message: "nothing was handed in".to_owned() };
         Self { reason: Some(reason), raw: Some(0.0), points: Some(0.0), ..Self::new(member, State::Missing) }
     }
 
-    /// Of a submission with which the grader failed.
+    /// Row of a submission that the grader failed with.
     pub(super) fn harness(member: &Member, reason: IntakeFinding) -> Self {
         Self { reason: Some(reason), ..Self::new(member, State::Harness) }
     }
 
-    /// Of a submission that was taken in.
+    /// Row of a submission that was taken in.
     pub(super) fn of_record(
         member: &Member,
         record: &Record,
@@ -156,7 +156,7 @@ impl Row {
         }
     }
 
-    /// The row for a terminal.
+    /// One line for the terminal.
     pub(super) fn line(&self) -> String {
         let points = self.points.map_or_else(|| "–".to_owned(), |points| points.to_string());
         let reason = self.reason.as_ref().map_or("", |reason| reason.code.as_str());
@@ -164,7 +164,7 @@ impl Row {
         format!("{:<24} {points:>5}  {reason}{kept}", verdict::text::harmless(&self.key))
     }
 
-    /// What a student is told in a course system: points by task, and why some are missing.
+    /// Feedback for the student in a course system: points by task, and why some are missing.
     pub(super) fn feedback(&self) -> String {
         let mut parts: Vec<String> = self
             .tasks
@@ -180,7 +180,7 @@ impl Row {
     }
 }
 
-/// Writes `gradebook.csv`. Texts that a spreadsheet would take for formulas begin with a `'`.
+/// Writes `gradebook.csv`. Texts that a spreadsheet would take for formulas get a leading `'`.
 ///
 /// # Errors
 /// If it cannot be written.
@@ -242,7 +242,7 @@ pub fn save_gradebook(path: &Path, rows: &[&Row], tasks: &[String]) -> Result<()
     table.save(path)
 }
 
-/// All of a class, for staff.
+/// Content of `class.json`, for staff only.
 #[derive(Serialize)]
 struct ClassFile<'a> {
     schema: &'a str,

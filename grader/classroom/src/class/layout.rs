@@ -1,36 +1,36 @@
-//! Which submissions lie in a folder: as Moodle and ILIAS pack them, or one file, folder or archive for each student.
+//! Finds the submissions in a folder: as packed by Moodle and ILIAS, or one file, folder or archive per student.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use verdict::error::{Error, Result};
 
-/// What a name says of who handed in.
+/// What the name of a folder or file tells about its student.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Identity {
     /// The login.
     pub login: Option<String>,
-    /// The course system's number of the student.
+    /// Number of the student in the course system.
     pub number: Option<String>,
-    /// First and last name in some order.
+    /// First and last name in any order.
     pub full_name: Option<String>,
 }
 
-/// What one student sent.
+/// Files that one student sent.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sent {
-    /// The name of the folder, or of the file without its ending.
+    /// Name of the folder, or of the file without its extension.
     pub label: String,
-    /// What it says.
+    /// What that name tells about the student.
     pub identity: Identity,
-    /// The files and folders.
+    /// Files and folders.
     pub paths: Vec<PathBuf>,
 }
 
 /// All submissions in a folder, in the order of their names.
 ///
 /// # Errors
-/// If it is no folder, cannot be read, or holds none.
+/// If it is not a folder, cannot be read, or has no submissions.
 pub fn submissions(folder: &Path) -> Result<Vec<Sent>> {
     if !folder.is_dir() {
         return Err(Error::file(folder, "this is no folder; unpack a course system's archive first"));
@@ -52,8 +52,8 @@ pub fn submissions(folder: &Path) -> Result<Vec<Sent>> {
     Ok(found.into_values().collect())
 }
 
-/// The folder that the submissions lie in: course systems pack them in folders of the exercise's and assignment's name.
-/// Only what carries a course system's numbers, some folders down, is proof that those above are not a student's.
+/// Innermost folder that contains all submissions, since course systems wrap them in folders named after exercise and
+/// assignment. Such a folder is only told from a student's by names with a course system's numbers below it.
 fn inner_folder(folder: &Path) -> Result<PathBuf> {
     let mut inner = folder.to_owned();
     for _ in 0..4 {
@@ -71,7 +71,7 @@ fn inner_folder(folder: &Path) -> Result<PathBuf> {
     Ok(folder.to_owned())
 }
 
-/// Folders and files that can be part of a submission, in order. Tables and notes of the staff are none.
+/// Folders and files that can be part of a submission, sorted. Tables and notes of the staff are skipped.
 fn entries(folder: &Path) -> Result<Vec<PathBuf>> {
     let list = std::fs::read_dir(folder).map_err(|error| Error::file(folder, error))?;
     let mut paths = Vec::new();
@@ -88,7 +88,7 @@ fn entries(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(paths)
 }
 
-/// A file's name without its ending.
+/// Name of a file without its extension.
 fn label(name: &str, is_folder: bool) -> String {
     if is_folder {
         return name.to_owned();
@@ -102,7 +102,7 @@ fn label(name: &str, is_folder: bool) -> String {
     name.to_owned()
 }
 
-/// What a name says of its student.
+/// Reads the identity of a student from a name.
 fn identity(label: &str) -> Identity {
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     // Moodle: `Full Name_1234567_assignsubmission_file…`

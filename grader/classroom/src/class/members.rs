@@ -1,4 +1,4 @@
-//! Roster and submissions brought together.
+//! The members of a class: students of the roster with their submissions.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -11,22 +11,22 @@ use verdict::error::{Error, Result};
 /// One row of the class: a student, a submission, or both.
 #[derive(Clone, Debug)]
 pub struct Member {
-    /// What names the row: the login if there is one. It is also the name of the folder with the results.
+    /// Unique name of the row and of its result folder: the login if there is one.
     pub key: String,
-    /// The student of the roster; without one, the submission is somebody else's.
+    /// Student of the roster; `None` if the submission is of somebody else.
     pub student: Option<Student>,
-    /// The name of the submission's folder; empty if there is none.
+    /// Name of the submission's folder or file; empty if there is none.
     pub label: String,
-    /// The submission's files and folders; empty if there is none.
+    /// Files and folders of the submission; empty if there is none.
     pub paths: Vec<PathBuf>,
-    /// When it came.
+    /// Receipts, in the order of the manifest.
     pub receipts: Vec<Receipt>,
-    /// The names that the submission's folder gives its student.
+    /// Names of the student in the name of the submission's folder.
     aliases: Vec<String>,
 }
 
 impl Member {
-    /// All that the student may be called in the course's files.
+    /// All names that the student may have in the course's files.
     pub fn names(&self) -> Vec<&str> {
         let mut names: Vec<&str> = self.student.iter().flat_map(Student::names).collect();
         names.extend([self.key.as_str(), self.label.as_str()]);
@@ -36,20 +36,20 @@ impl Member {
     }
 }
 
-/// A class: everybody of the roster, then everybody else who handed in.
+/// A class: all students of the roster, then everybody else who handed in.
 #[derive(Clone, Debug)]
 pub struct Class {
-    /// The rows.
+    /// Members in the order of the rows.
     pub members: Vec<Member>,
-    /// The folder of the submissions.
+    /// Folder of the submissions.
     pub folder: PathBuf,
 }
 
 impl Class {
-    /// Looks for submissions in a folder, and gives them to the students of the roster. An empty roster says nothing.
+    /// Finds the submissions in a folder and their students on the roster, which may be empty.
     ///
     /// # Errors
-    /// If there are none.
+    /// If there are no submissions.
     pub fn find(folder: &Path, roster: &[Student]) -> Result<Self> {
         let mut sent_by: Vec<Vec<Sent>> = vec![Vec::new(); roster.len()];
         let mut unknown = Vec::new();
@@ -72,10 +72,10 @@ impl Class {
         Ok(Self { members, folder: folder.to_owned() })
     }
 
-    /// Tells the class when its submissions came.
+    /// Adds receipt times.
     ///
     /// # Errors
-    /// If somebody is named whom nobody knows, or a file that is not there.
+    /// If the manifest names an unknown student or a file that is not there.
     pub fn receive(&mut self, manifest: &crate::policy::Manifest) -> Result<()> {
         let mut unknown: BTreeSet<&str> = manifest.students().collect();
         for member in &mut self.members {
@@ -115,7 +115,7 @@ fn member(student: Option<Student>, key: &str, sent: Vec<Sent>, keys: &mut BTree
     }
 }
 
-/// A name that can be that of a folder on every system, and cannot be mistaken for an option or a hidden file.
+/// Makes a name that is valid for a folder on every system, and is neither an option nor hidden.
 fn safe(name: &str) -> String {
     let plain = |c: char| if c.is_alphanumeric() || "._-@+".contains(c) { c } else { '_' };
     let text: String = name.trim().chars().take(80).map(plain).collect();
@@ -123,7 +123,7 @@ fn safe(name: &str) -> String {
     if text.is_empty() { "somebody".to_owned() } else { text.to_owned() }
 }
 
-/// The name with a number after it if there is another such folder: some systems know no capitals.
+/// Adds a number to a name if it is taken, ignoring case as some file systems do.
 fn unique(name: &str, keys: &mut BTreeSet<String>) -> String {
     let mut candidate = name.to_owned();
     let mut number = 2;

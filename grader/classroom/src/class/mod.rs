@@ -1,11 +1,11 @@
 //! Grading a whole class.
 //!
-//! [`layout`] recognises whose submissions lie in a folder, [`roster`] who should have handed in, [`Class`] brings both
-//! together, `run` takes in and grades as many at once as there are cores, and keeps a [`record`] of each as it ends.
-//! [`gradebook`] makes tables of the records, the penalties of the policy included, [`systems`] fills the files of
-//! Moodle and ILIAS, [`page`] shows all of it, [`similar`] lists submissions that are the same or nearly so, for a person to look at.
+//! [`layout`] finds the submissions in a folder, [`roster`] reads the students, [`Class`] combines both. [`run`()] takes
+//! in and grades several submissions at once, and stores a [`record`] of each when it is done. [`gradebook`] makes tables
+//! of the records, penalties included; [`systems`] fills the tables of Moodle and ILIAS; [`page`] shows the class;
+//! [`similar`] lists submissions that are the same or nearly so, for a tutor to look at.
 //!
-//! A record's points are raw. Everything that a date can change is computed anew each time that tables are made.
+//! Points of a record are raw. Everything that depends on a date is computed each time that tables are written.
 
 pub mod gradebook;
 pub mod layout;

@@ -1,4 +1,4 @@
-//! The pages of one submission of a class: all that takes time is done once, pages are made again when a mark has changed.
+//! The pages of one submission of a class. Measurements and images are made once; pages are rewritten when a mark changes.
 
 use super::record::{Record, ResultDir};
 use crate::marks::Marks;
@@ -14,11 +14,10 @@ use verdict::error::Result;
 use verdict::output;
 use verdict::report::Report;
 
-/// Scenes of which pages have pictures: fewer than when one submission is graded, since those of a class take megabytes each.
+/// Number of scenes with images on a page: fewer than for a single grade, since each takes megabytes.
 const SCENES: usize = 2;
 
-/// Measures error against run time of a program that has just been graded, renders pictures, and keeps these and a small
-/// one.
+/// Measures the convergence of a program that has just been graded, renders images, and stores them and a thumbnail.
 pub(super) fn complete(
     workspace: &Workspace,
     grader: &Grader,
@@ -40,8 +39,8 @@ pub(super) fn complete(
     }
 }
 
-/// Makes both pages of a graded submission, unless those that are there were made of the same report and marks. `path` is
-/// what students call their file.
+/// Writes both pages of a graded submission unless they are up to date with report and marks. `path` is the path of the
+/// student file in a checkout.
 pub(super) fn make(result_dir: &ResultDir, record: &Record, marks: &Marks, path: &str) -> Result<()> {
     let mut hasher = blake3::Hasher::new();
     hasher.update(record.key.as_bytes()).update(record.report.as_bytes()).update(path.as_bytes());
@@ -60,7 +59,7 @@ pub(super) fn make(result_dir: &ResultDir, record: &Record, marks: &Marks, path:
     output::write_bytes(&result_dir.made_of(), made_of)
 }
 
-/// Removes what an earlier submission of the same student has left.
+/// Removes the pages of an earlier submission of the same student.
 pub(super) fn clear(result_dir: &ResultDir) -> Result<()> {
     output::remove(&result_dir.made_of())?;
     output::remove(&result_dir.thumbnail())?;

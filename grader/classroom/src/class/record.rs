@@ -1,4 +1,4 @@
-//! What is kept of a graded submission, beside its report.
+//! The record of a graded submission, stored beside its report.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -15,42 +15,41 @@ use verdict::output;
 use verdict::report::Report;
 use verdict::submission::{Explanation, IntakeFinding};
 
-/// The version of the format.
+/// Version of the format.
 const SCHEMA: &str = "arty-record/1";
 
-/// What is kept of a submission. Its points are raw: what a date can change is not among them.
+/// The record of a submission. Its points are raw: nothing in it depends on a date.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Record {
-    /// The version of the format.
+    /// Version of the format.
     pub schema: String,
-    /// Hash of all that the verdicts depend on.
+    /// Hash of everything that verdicts depend on, the submission included.
     pub key: String,
-    /// Why there are no points, or fewer than there could be: of the refusals of [`intake::Refusal`] one, or
-    /// `build`, `timeout`, `crash`, `violation`.
+    /// Main reason why points are missing: the code of an [`intake::Refusal`], or `build`, `timeout`, `crash`, `violation`.
     pub reason: Option<IntakeFinding>,
-    /// What is odd about it.
+    /// Notes of intake.
     pub notes: Vec<IntakeFinding>,
-    /// Raw points of each task; none where a person marks, or not all checks were run.
+    /// Raw points of each task; none where a tutor grades, or where not all checks were run.
     pub tasks: BTreeMap<String, Option<f64>>,
-    /// The verdict of each check, by task and check.
+    /// Verdicts, by task and check.
     pub checks: BTreeMap<String, Verdict>,
-    /// The sum of raw points.
+    /// Sum of raw points.
     pub earned: f64,
     /// Written explanations.
     pub explanations: Vec<Explanation>,
-    /// MD5 of the files that came.
+    /// MD5 of the files that were received.
     pub checksums: Vec<String>,
     /// BLAKE3 of the source; empty if there is none.
     pub source: String,
-    /// When it was graded.
+    /// Time of grading.
     pub graded_at: String,
-    /// How long compiling and running took.
+    /// Seconds for compiling and running.
     pub seconds: f64,
-    /// The likeliest cause of what is wrong.
+    /// Most likely cause of the failures.
     #[serde(default)]
     pub mistake: Option<String>,
-    /// Time for a given noise: the variance of multiple importance sampling relative to the solution's × seconds for a
-    /// sample, as the geometric mean over the scenes of the check `efficiency`. None unless the means are right.
+    /// Work for a given noise with multiple importance sampling: variance relative to the solution's × seconds per sample,
+    /// as a geometric mean over the scenes of the check `efficiency`. None if any check with that technique fails.
     #[serde(default)]
     pub work: Option<f64>,
     /// BLAKE3 of `report.json`; empty if there is none.
@@ -58,7 +57,7 @@ pub struct Record {
 }
 
 impl Record {
-    /// Of a submission that cannot be graded, or has been.
+    /// Creates the record of a submission; without a report, of one that is not graded.
     pub(super) fn new(key: String, intake: &Intake, tasks: &[String], report: Option<&Report>) -> Self {
         let reason = match (&intake.outcome, report) {
             (Err(refusal), _) => Some(IntakeFinding::from(refusal)),
@@ -95,7 +94,7 @@ impl Record {
     }
 }
 
-/// See [`Record::work`].
+/// Computes [`Record::work`].
 fn work(report: &Report) -> Option<f64> {
     let looked_at = |check: &&CheckResult| {
         check.id.kind == CheckKind::Efficiency && check.id.technique == Technique::Mis && check.samples > 0
@@ -122,7 +121,7 @@ fn work(report: &Report) -> Option<f64> {
     (!logs.is_empty()).then(|| (logs.iter().sum::<f64>() / logs.len() as f64).exp())
 }
 
-/// The one thing that a student has to know first.
+/// Main reason why points are missing.
 fn reason(report: &Report) -> Option<IntakeFinding> {
     if let Some(failure) = &report.submission.build_failure {
         let line = failure.line.map_or_else(String::new, |line| format!(" (line {line})"));
@@ -143,12 +142,12 @@ fn reason(report: &Report) -> Option<IntakeFinding> {
     })
 }
 
-/// The folder of one submission's results.
+/// Result folder of one submission.
 #[derive(Clone, Debug)]
 pub(super) struct ResultDir(PathBuf);
 
 impl ResultDir {
-    /// In the folder of all results.
+    /// Its path in the result folder of a class.
     pub(super) fn new(out: &Path, key: &str) -> Self {
         Self(out.join("submissions").join(key))
     }
@@ -161,41 +160,41 @@ impl ResultDir {
         self.0.join("record.json")
     }
 
-    /// The student's edition of the page, and the tutor's.
+    /// Paths of the student's page and the tutor's page.
     pub(super) fn pages(&self) -> [PathBuf; 2] {
         pages_beside(&self.report())
     }
 
-    /// What the pages were made of: a hash.
+    /// Path of the hash of the data that the pages were made from.
     pub(super) fn made_of(&self) -> PathBuf {
         self.0.join("pages.hash")
     }
 
-    /// The pictures of the pages.
+    /// Path of the images of the pages.
     pub(super) fn pictures(&self) -> PathBuf {
         pictures_beside(&self.report())
     }
 
-    /// The picture for the page of the class.
+    /// Path of the image for the page of the class.
     pub(super) fn thumbnail(&self) -> PathBuf {
         self.0.join("thumbnail.png")
     }
 
-    /// The record, whatever became of its report.
+    /// Reads the record without checking its report; `None` if it is missing or not valid.
     pub(super) fn record_alone(&self) -> Option<Record> {
         let record: Record = serde_json::from_slice(&std::fs::read(self.record()).ok()?).ok()?;
         (record.schema == SCHEMA).then_some(record)
     }
 
-    /// The record, if there is a whole one whose report is whole, too.
+    /// Reads the record; `None` if it or its report is missing or incomplete.
     pub(super) fn load(&self) -> Option<Record> {
         let record = self.record_alone()?;
         let report = std::fs::read(self.report()).map_or_else(|_| String::new(), |bytes| hash(&bytes));
         (record.report == report).then_some(record)
     }
 
-    /// Keeps report and record. The record comes last and names the report: whatever is interrupted, what
-    /// [`Self::load`] gives belongs together.
+    /// Saves report and record. The record is written last and contains the report's hash, so that after any interruption
+    /// [`Self::load`] only returns a record that belongs to its report.
     pub(super) fn save(&self, record: &mut Record, report: Option<&Report>) -> Result<()> {
         output::create_folder(&self.0)?;
         self.remove_leftovers();
@@ -214,7 +213,7 @@ impl ResultDir {
         output::write_json(&self.record(), record)
     }
 
-    /// Files that a killed grader had begun.
+    /// Removes incomplete files of a grader that was killed.
     fn remove_leftovers(&self) {
         for entry in std::fs::read_dir(&self.0).into_iter().flatten().flatten() {
             let name = entry.file_name();

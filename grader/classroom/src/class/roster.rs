@@ -1,4 +1,4 @@
-//! Who should have handed in.
+//! The roster: students of the class.
 
 use std::path::Path;
 
@@ -8,12 +8,12 @@ use super::layout::Identity;
 use crate::table::Table;
 use verdict::error::{Error, Result};
 
-/// A student of the roster. What it does not tell is empty.
+/// A student of the roster. Unknown fields are empty.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Student {
     /// Family name.
     pub last_name: String,
-    /// Given name, or the whole name where the roster does not tell one from the other.
+    /// Given name, or the whole name if the roster does not separate them.
     pub first_name: String,
     /// Login.
     pub login: String,
@@ -23,7 +23,7 @@ pub struct Student {
     pub numbers: Vec<String>,
 }
 
-/// The columns by which a student is known, as the programs that write rosters call them.
+/// Names of the columns that identify a student, in the rosters of common programs.
 pub(super) const LOGIN: &[&str] = &["login", "username", "Benutzername", "Anmeldename", "user", "account"];
 pub(super) const EMAIL: &[&str] = &["email", "Email address", "E-Mail-Adresse", "mail"];
 pub(super) const IDENTIFIER: &[&str] = &["Identifier", "Teilnehmer", "usr_id"];
@@ -33,7 +33,7 @@ const LAST_NAME: &[&str] = &["Last name", "lastname", "Surname", "Nachname", "Fa
 const FIRST_NAME: &[&str] = &["First name", "firstname", "Vorname", "Given name"];
 const FULL_NAME: &[&str] = &["Full name", "Vollständiger Name", "name"];
 
-/// Reads a roster: a table with at least one column that tells students from each other.
+/// Reads a roster: a table with at least one column that identifies students.
 ///
 /// # Errors
 /// If it cannot be read or has no such column.
@@ -74,7 +74,7 @@ pub(super) fn digits(text: &str) -> String {
 }
 
 impl Student {
-    /// All that the student may be called in the course's files.
+    /// All names that the student may have in the course's files.
     pub fn names(&self) -> Vec<&str> {
         let mut names = vec![self.login.as_str(), self.email.as_str(), self.account()];
         names.extend(self.numbers.iter().map(String::as_str));
@@ -82,12 +82,12 @@ impl Student {
         names
     }
 
-    /// The e-mail address up to the `@`, which often is the login.
+    /// The e-mail address up to the `@`, which is often the login.
     fn account(&self) -> &str {
         self.email.split('@').next().unwrap_or_default()
     }
 
-    /// What names the student in tables and folders.
+    /// Name of the student in tables and folders.
     pub(super) fn key(&self) -> String {
         let name = format!("{} {}", self.first_name, self.last_name);
         let mut names = self.names().into_iter().chain([name.trim()]).map(str::to_owned);
@@ -95,8 +95,7 @@ impl Student {
     }
 }
 
-/// The student of the roster that an identity belongs to, by the surest thing that is known; `None` if nothing fits,
-/// or fits several.
+/// Index of the student with an identity: compares number, login, then name. `None` if no student matches, or several.
 pub fn find(roster: &[Student], identity: &Identity) -> Option<usize> {
     let same = |one: &str, other: &str| !one.is_empty() && fold(one) == fold(other);
     let only = |fits: &dyn Fn(&Student) -> bool| {
@@ -117,12 +116,12 @@ pub fn find(roster: &[Student], identity: &Identity) -> Option<usize> {
         })
 }
 
-/// A name as it compares: composed, in small letters.
+/// A name for comparison: composed (NFKC), in lower case.
 fn fold(text: &str) -> String {
     text.nfkc().flat_map(char::to_lowercase).collect()
 }
 
-/// The words of a name in an order of their own: some systems put the family name first.
+/// The words of a name, sorted, since some systems put the family name first.
 fn words(name: &str) -> Vec<String> {
     let folded = fold(name);
     let mut words: Vec<String> = folded

@@ -1,8 +1,7 @@
-//! Taking in and grading all submissions of a class, as many at once as there are cores.
+//! Takes in and grades all submissions of a class, several at once.
 //!
-//! Each submission renders with one thread, so that it takes one core and leaves the others alone: the times of several
-//! are those that each would have by itself, and no core waits while rustc or the grader's own part runs. Verdicts
-//! depend on seeds alone, not on how many are graded at once or in which order.
+//! Each submission renders with one thread and so occupies one core: times are about those of grading it alone, and no
+//! core waits while rustc or the grader runs. Verdicts depend only on seeds, not on the number of jobs or the order.
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -29,41 +28,41 @@ use verdict::report::Provenance;
 use verdict::submission::IntakeFinding;
 use verdict::text::harmless;
 
-/// How a class is graded.
+/// Options of grading a class.
 #[derive(Clone, Debug)]
 pub struct RunOptions {
-    /// What each submission is graded by.
+    /// Options of each grade.
     pub grade: Options,
-    /// How many at once.
+    /// Number of submissions that are graded at once.
     pub jobs: usize,
-    /// The folder of the results.
+    /// Result folder.
     pub out: PathBuf,
-    /// True if submissions are graded again of which nothing has changed.
+    /// True to grade submissions again that have not changed.
     pub regrade: bool,
-    /// True if each submission gets its pages, and pictures on them.
+    /// True to write the pages of each submission, with images.
     pub pages: bool,
 }
 
-/// What has become of a class.
+/// Results of a class.
 pub struct Outcome {
-    /// A row for each member, in their order.
+    /// One row per member, in their order.
     pub rows: Vec<Row>,
-    /// What is needed to compare submissions, by row key.
+    /// Fingerprints to compare submissions, by row key.
     pub fingerprints: BTreeMap<String, Fingerprint>,
-    /// Scores that are not what they were, for people.
+    /// Changes of scores since the last run, as texts.
     pub changes: Vec<String>,
-    /// How many were graded now.
+    /// Number of submissions that were graded in this run.
     pub graded: usize,
-    /// How many were as they were.
+    /// Number of submissions that have not changed since the last run.
     pub unchanged: usize,
-    /// What all verdicts rest on.
+    /// Versions and seeds of all grades.
     pub provenance: Provenance,
 }
 
-/// All that workers share.
+/// State that all workers share.
 struct Shared<'a> {
     workspace: &'a Workspace,
-    /// What students call their file.
+    /// Path of the student file in a checkout.
     student_file: String,
     grader: Grader,
     class: &'a Class,
@@ -71,21 +70,21 @@ struct Shared<'a> {
     options: &'a RunOptions,
     starter_text: String,
     starter: Starter,
-    /// Hash of all that the verdicts depend on and that is the same for all.
+    /// Hash of everything that verdicts depend on except the submission.
     base: blake3::Hash,
     tasks: Vec<String>,
-    /// What a person has marked.
+    /// Marks of tutors.
     marks: Marks,
 }
 
-/// The submission of a member that counts.
+/// The submission that counts of one member.
 struct Taken {
     intake: Intake,
     receipt: Option<Receipt>,
     lateness: Option<Lateness>,
 }
 
-/// What is known of a submission once it is taken in and graded.
+/// A submission that has been taken in and graded.
 struct Settled {
     record: Record,
     fingerprint: Option<Fingerprint>,
@@ -94,7 +93,7 @@ struct Settled {
     graded: bool,
 }
 
-/// What a worker sends of one submission.
+/// A worker's result for one submission.
 struct Done {
     index: usize,
     row: Row,
@@ -103,10 +102,10 @@ struct Done {
     graded: bool,
 }
 
-/// Grades a class. `save` is called with the rows so far every few seconds, so that there is a table at any time.
+/// Grades a class. `save` is called every few seconds with the rows so far, so that there is always a current table.
 ///
 /// # Errors
-/// If nothing at all can be graded. What goes wrong with one submission is in its row.
+/// If no submission can be graded. Errors with a single submission are in its row.
 pub fn run(
     workspace: &Workspace,
     class: &Class,
@@ -172,7 +171,7 @@ pub fn run(
     Ok(outcome)
 }
 
-/// Takes one submission after the other until there is none left, or nobody listens any more.
+/// Grades one submission after another until none is left or the receiver is gone.
 fn work(shared: &Shared<'_>, next: &AtomicUsize, mut line: Line, results: &Sender<Done>) {
     loop {
         let index = next.fetch_add(1, Ordering::Relaxed);
@@ -185,7 +184,7 @@ fn work(shared: &Shared<'_>, next: &AtomicUsize, mut line: Line, results: &Sende
 }
 
 impl Shared<'_> {
-    /// Everything about one member of the class.
+    /// Grades one member of the class and makes its row. Errors become part of the row.
     fn settle(&self, index: usize, member: &Member, line: &mut Line) -> Done {
         let result_dir = ResultDir::new(&self.options.out, &member.key);
         let before = result_dir.load();
@@ -227,7 +226,7 @@ impl Shared<'_> {
         }
     }
 
-    /// Makes the pages of a submission. They decide nothing: what goes wrong with them is said, and changes no row.
+    /// Writes the pages of a submission. Errors are only printed, since pages change no row.
     fn pages(&self, member: &Member, result_dir: &ResultDir, record: &Record) {
         let made = match (self.options.pages, record.report.is_empty()) {
             (true, false) => pages::make(result_dir, record, &self.marks, &self.student_file),
@@ -238,7 +237,7 @@ impl Shared<'_> {
         }
     }
 
-    /// Takes in and grades; `None` if there is nothing.
+    /// Takes in and grades the submission of a member; `None` if there is none.
     fn attempt(
         &self,
         member: &Member,
@@ -281,7 +280,7 @@ impl Shared<'_> {
         Ok(Some(Settled { record, fingerprint, lateness, receipt, graded: graded.is_some() }))
     }
 
-    /// The submission that counts, of those that a member sent.
+    /// Takes in the submissions of a member and selects the one that counts; `None` if there is none.
     fn take(&self, member: &Member) -> Result<Option<Taken>> {
         let names = member.names();
         let paths_of = |receipt: &Receipt| {
@@ -323,8 +322,8 @@ impl Shared<'_> {
     }
 }
 
-/// Over the framework, what judges, the solution, rubric, scenes, references and seed; not over the policy, which changes
-/// no verdict.
+/// Hash of everything that verdicts depend on except the submission: framework, judging crates, solution, rubric,
+/// scenes, references and seed. The late policy is not part of it.
 fn hash_of_inputs(workspace: &Workspace, grader: &Grader, options: &Options) -> Result<blake3::Hash> {
     let mut hasher = blake3::Hasher::new();
     // The rubric's tasks are named below: its policy changes no verdict.
@@ -336,7 +335,7 @@ fn hash_of_inputs(workspace: &Workspace, grader: &Grader, options: &Options) -> 
     Ok(hasher.finalize())
 }
 
-/// What has changed in a score, for people; `None` if nothing has.
+/// Describes what has changed in a score; `None` if nothing has.
 fn change(key: &str, before: &Record, after: &Record) -> Option<String> {
     let show = |points: &Option<f64>| points.map_or_else(|| "–".to_owned(), |points| points.to_string());
     let mut parts: Vec<String> = after
@@ -355,7 +354,7 @@ fn change(key: &str, before: &Record, after: &Record) -> Option<String> {
     (!parts.is_empty()).then(|| format!("{key}: {}", parts.join(", ")))
 }
 
-/// True if a folder holds results of an earlier run.
+/// True if a folder contains results of an earlier run.
 pub fn has_results(out: &Path) -> bool {
     std::fs::read_dir(out.join("submissions")).is_ok_and(|mut entries| entries.next().is_some())
 }

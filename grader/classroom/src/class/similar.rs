@@ -1,9 +1,9 @@
-//! Submissions that are the same, or nearly so, for a person to look at. Nothing of this is in a student's report.
+//! Submissions that are the same or nearly so, for a tutor to look at. A student's report does not mention them.
 //!
 //! Sources are compared by fingerprints of their tokens: winnowing, as in Schleimer, Wilkerson and Aiken, "Winnowing:
 //! local algorithms for document fingerprinting" (SIGMOD 2003), section 4. Any run of `GRAM + WINDOW - 1` tokens that
-//! two files share leaves at least one common fingerprint. What the starting file has counts for nobody.
-//! Two files that are alike prove nothing: the exercise is small, and there are few good ways to do it.
+//! two files share leaves at least one common fingerprint. Fingerprints of the starting file are ignored. Similar files
+//! prove nothing: the exercise is small, and there are few good solutions.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,41 +11,41 @@ use serde::Serialize;
 
 use super::tokens::{names, tokens};
 
-/// Tokens of one fingerprint: about two statements.
+/// Number of tokens in one fingerprint: about two statements.
 const GRAM: usize = 16;
-/// Of so many fingerprints in a row one is kept.
+/// One of so many consecutive fingerprints is kept.
 const WINDOW: usize = 6;
-/// Files with fewer fingerprints of their own than this are not compared: there is too little in them.
+/// Minimum number of fingerprints that a file must have to be compared, not counting the starting file's.
 const FEWEST: usize = 12;
-/// From which share of common fingerprints on files are listed. Solutions of one exercise that were written
-/// independently have below 0.05 in common (see the test), a copy with one expression changed has most.
+/// Minimum share of common fingerprints of files that are listed. Solutions written independently share less than 0.05
+/// (see the test), a copy with one changed expression most.
 pub const THRESHOLD: f64 = 0.5;
 
-/// What is known of the starting file.
+/// Fingerprints and names of the starting file.
 #[derive(Clone, Debug)]
 pub struct Starter {
     vocabulary: BTreeSet<String>,
     grams: BTreeSet<u64>,
 }
 
-/// What is kept of a source.
+/// Fingerprint of a source.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fingerprint {
-    /// Of all tokens.
+    /// Hash of all tokens.
     whole: u64,
-    /// Of pieces that the starting file does not have, in order.
+    /// Fingerprints that the starting file does not have, in order.
     pieces: Vec<u64>,
 }
 
 impl Starter {
-    /// Of its text.
+    /// Computes them from its text.
     pub fn new(text: &str) -> Self {
         let vocabulary = names(text);
         let grams = grams(&tokens(text, &vocabulary)).into_iter().collect();
         Self { vocabulary, grams }
     }
 
-    /// The fingerprint of a source.
+    /// Computes the fingerprint of a source.
     pub fn fingerprint(&self, source: &str) -> Fingerprint {
         let tokens = tokens(source, &self.vocabulary);
         let grams = grams(&tokens);
@@ -74,7 +74,7 @@ fn combine(numbers: &[u64]) -> u64 {
 }
 
 impl Fingerprint {
-    /// The share of pieces that both have, of all that either has, in [0, 1].
+    /// Number of common fingerprints divided by the number of all, in [0, 1].
     pub fn similarity(&self, other: &Self) -> f64 {
         let (mut common, mut own, mut others) = (0_usize, 0, 0);
         while own < self.pieces.len() && others < other.pieces.len() {
@@ -93,18 +93,18 @@ impl Fingerprint {
     }
 }
 
-/// Submissions to look at together.
+/// A group of similar submissions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Group {
-    /// True if they differ in names, comments and layout only.
+    /// True if they differ only in names, comments and layout.
     pub identical: bool,
-    /// Whose they are.
+    /// Students, by row key.
     pub students: Vec<String>,
-    /// Of groups that are not identical, the pairs that brought them together, and how alike they are.
+    /// Similar pairs in a group that is not identical, with their similarity.
     pub pairs: Vec<(String, String, f64)>,
 }
 
-/// All groups, the identical ones first. Of identical submissions only the first is compared further.
+/// All groups, identical ones first. Only the first of identical submissions is compared with others.
 pub fn groups(submissions: &BTreeMap<String, Fingerprint>) -> Vec<Group> {
     let mut same: BTreeMap<u64, Vec<&String>> = BTreeMap::new();
     let comparable = submissions.iter().filter(|(_, print)| print.pieces.len() >= FEWEST);
@@ -145,7 +145,7 @@ pub fn groups(submissions: &BTreeMap<String, Fingerprint>) -> Vec<Group> {
     groups
 }
 
-/// Adds a pair to the groups that have one of the two, which become one.
+/// Adds a pair, and merges all groups that contain one of its students.
 fn join(groups: &mut Vec<Group>, pair: (String, String, f64)) {
     let has = |group: &Group| {
         group
@@ -160,16 +160,16 @@ fn join(groups: &mut Vec<Group>, pair: (String, String, f64)) {
     groups.push(Group { identical: false, students: Vec::new(), pairs });
 }
 
-/// The groups as a text for staff.
+/// Describes the groups in a text for staff.
 pub fn describe(groups: &[Group]) -> String {
     let mut text =
-        "Submissions that are alike, for a person to look at. This proves nothing: the exercise is small.\n\
-                    Compared are tokens, without names, comments, layout, and what the starting file has.\n"
+        "Similar submissions, for a tutor to look at. Similarity proves nothing: the exercise is small.\n\
+                    Tokens are compared, without names, comments, layout and the code of the starting file.\n"
             .to_owned();
     for group in groups {
         if group.identical {
             text +=
-                &format!("\nthe same but for names, comments and layout: {}\n", group.students.join(", "));
+                &format!("\nthe same except for names, comments and layout: {}\n", group.students.join(", "));
             continue;
         }
         text += &format!("\nnearly the same: {}\n", group.students.join(", "));

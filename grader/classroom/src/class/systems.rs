@@ -1,5 +1,4 @@
-//! The tables of course systems, filled: read as they were downloaded, written with points for those they name, and
-//! otherwise unchanged.
+//! Fills the tables of course systems: the downloaded file with points added, and otherwise unchanged.
 
 use std::path::Path;
 
@@ -8,12 +7,12 @@ use super::roster::{EMAIL, IDENTIFIER, LOGIN, digits};
 use crate::table::{Row as Line, Table, no_formula};
 use verdict::error::{Error, Result};
 
-/// What was filled in.
+/// Result of filling a table.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Filled {
-    /// Rows with points now.
+    /// Number of rows that were filled in.
     pub filled: usize,
-    /// Rows that were left as they are, and why.
+    /// Rows that were left unchanged, with the reason.
     pub left: Vec<String>,
 }
 
@@ -25,7 +24,7 @@ const LOCKED: &[&str] = &["Grade can be changed", "Bewertung kann geändert werd
 /// Fills Moodle's grading worksheet: grade and feedback, by Identifier or e-mail address.
 ///
 /// # Errors
-/// If the file is none, or cannot be read or written.
+/// If the file is not such a table, or cannot be read or written.
 pub fn fill_moodle(from: &Path, to: &Path, rows: &[Row]) -> Result<Filled> {
     let mut table = Table::load(from)?;
     let grade = table.column(GRADE).ok_or_else(|| Error::file(from, "there is no column `Grade`"))?;
@@ -39,12 +38,12 @@ pub fn fill_moodle(from: &Path, to: &Path, rows: &[Row]) -> Result<Filled> {
     let mut filled = Filled::default();
     for line in &mut table.rows {
         let Some(row) = find(rows, line, identifier, email) else {
-            filled.left.push(format!("line {}: nobody of the class", line.line));
+            filled.left.push(format!("line {}: not in the class", line.line));
             continue;
         };
         let answer = changeable.map_or("", |column| line.cell(column)).to_lowercase();
         if matches!(answer.as_str(), "no" | "nein") {
-            filled.left.push(format!("{}: Moodle does not let this grade be changed", row.key));
+            filled.left.push(format!("{}: Moodle has locked this grade", row.key));
             continue;
         }
         // Those who handed in nothing keep what a person may have entered.
@@ -61,11 +60,11 @@ pub fn fill_moodle(from: &Path, to: &Path, rows: &[Row]) -> Result<Filled> {
     Ok(filled)
 }
 
-/// Fills the `status.csv` of an ILIAS exercise: mark and comment, by usr_id or login. Only rows whose `update` is 1 are
-/// taken over by ILIAS.
+/// Fills the `status.csv` of an ILIAS exercise: mark and comment, by usr_id or login. ILIAS imports only rows whose
+/// `update` is 1.
 ///
 /// # Errors
-/// If the file is none, or cannot be read or written.
+/// If the file is not such a table, or cannot be read or written.
 pub fn fill_ilias(from: &Path, to: &Path, rows: &[Row]) -> Result<Filled> {
     let mut table = Table::load(from)?;
     let column = |name: &str| {
@@ -76,7 +75,7 @@ pub fn fill_ilias(from: &Path, to: &Path, rows: &[Row]) -> Result<Filled> {
     let mut filled = Filled::default();
     for line in &mut table.rows {
         let Some(row) = find(rows, line, number, login) else {
-            filled.left.push(format!("line {}: nobody of the class", line.line));
+            filled.left.push(format!("line {}: not in the class", line.line));
             continue;
         };
         let Some(points) = row.points.filter(|_| row.state != State::Missing) else { continue };
@@ -89,7 +88,8 @@ pub fn fill_ilias(from: &Path, to: &Path, rows: &[Row]) -> Result<Filled> {
     Ok(filled)
 }
 
-/// The row of the class that a line is about: by number, or else by login or address.
+/// Row of the class for a line of the table: by number, or else by login or e-mail address; `None` if no row matches,
+/// or several.
 fn find<'a>(rows: &'a [Row], line: &Line, number: Option<usize>, name: Option<usize>) -> Option<&'a Row> {
     let number = number.map(|column| digits(line.cell(column))).unwrap_or_default();
     let name = name.map_or("", |column| line.cell(column)).to_lowercase();

@@ -1,18 +1,18 @@
-//! Sources as tokens without what is changed first when somebody else's file is handed in: names, comments, layout.
+//! Tokens of a source without names, comments and layout, which are the first things changed in a copy.
 
 use std::collections::BTreeSet;
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
-/// A token; of literals no more is kept than that there is one.
+/// A token. Values of literals are dropped.
 enum Token {
     Name(String),
     Sign(char),
     Literal,
 }
 
-/// Tokens of a source, each as a hash. Names that are not of the vocabulary are all alike, and so are literals;
-/// comments are none. A source that is not made of Rust's tokens is taken by its words.
+/// Hashes of the tokens of a source. All names outside of the vocabulary have the same hash, and so have all literals;
+/// comments are skipped. A source that cannot be tokenized as Rust is split into words.
 pub(super) fn tokens(source: &str, vocabulary: &BTreeSet<String>) -> Vec<u64> {
     let all = flatten(source).into_iter().map(|token| match token {
         Token::Name(name) if is_keyword(&name) || vocabulary.contains(&name) => hash(&name),
@@ -23,7 +23,7 @@ pub(super) fn tokens(source: &str, vocabulary: &BTreeSet<String>) -> Vec<u64> {
     all.collect()
 }
 
-/// All names in a source that are not its comments'.
+/// All names in a source, except those in comments.
 pub(super) fn names(source: &str) -> BTreeSet<String> {
     let names = flatten(source).into_iter().filter_map(|token| match token {
         Token::Name(name) => Some(name),

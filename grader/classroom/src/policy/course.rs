@@ -6,19 +6,19 @@ use serde::Deserialize;
 
 use verdict::error::Result;
 
-/// A file of the course's own, with what changes each term.
+/// Deadline and extensions of one course.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Course {
-    /// The last moment at which a submission is in time. Without it, nothing is late.
+    /// Last moment at which a submission is in time. Without a deadline, nothing is late.
     #[serde(default)]
     pub deadline: Option<String>,
-    /// Students who have longer.
+    /// Later deadlines of individual students.
     #[serde(default)]
     pub extensions: Vec<Extension>,
 }
 
-/// More time for one student.
+/// A later deadline for one student.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Extension {
@@ -26,7 +26,7 @@ pub struct Extension {
     pub student: String,
     /// The student's own deadline.
     pub until: String,
-    /// Why, for those who ask later.
+    /// Reason, for the record.
     pub reason: String,
 }
 

@@ -1,4 +1,4 @@
-//! From raw points, a time and the rules to the points that count.
+//! Lateness of a submission, and the points that count.
 
 use std::collections::BTreeMap;
 
@@ -10,48 +10,48 @@ use super::time::{Repeated, parse};
 use super::zone;
 use super::{Course, Receipt, Rules};
 
-/// All that decides on lateness.
+/// The late policy of an assignment in one course.
 #[derive(Clone, Debug)]
 pub struct Policy {
     rules: Rules,
     zone: TimeZone,
     deadline: Option<Timestamp>,
-    /// By student, in small letters.
+    /// Deadline and reason by student, in lower case.
     extensions: BTreeMap<String, (Timestamp, String)>,
 }
 
-/// How a submission stands to its deadline.
+/// Whether a submission is late.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Standing {
-    /// In time, or nothing can be late.
+    /// In time, or there is no deadline.
     InTime,
     /// Late, and accepted.
     Late,
-    /// There is a deadline, but nobody said when the submission came. It counts in full, and somebody should look.
+    /// There is a deadline but no receipt time. It counts in full, and a tutor should look.
     Unknown,
-    /// Too late.
+    /// Too late: it has no points.
     NotAccepted,
 }
 
-/// How a submission stands to its deadline, and what that means.
+/// Lateness of a submission, and its consequences.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lateness {
-    /// In a word.
+    /// Whether it is late.
     pub standing: Standing,
-    /// By how many seconds it missed its deadline; none if it did not.
+    /// Seconds after the deadline; none if it was in time or the receipt time is unknown.
     pub late_by: Option<i64>,
-    /// What raw points are multiplied by.
+    /// Factor for raw points.
     pub factor: f64,
-    /// What else decided, for people: an extension, a checksum.
+    /// What else decided, as a text: an extension, a checksum.
     pub why: String,
 }
 
 impl Policy {
-    /// Puts the rules of the sheet and the dates of the course together.
+    /// Combines the rules of a rubric with the dates of a course.
     ///
     /// # Errors
-    /// What cannot be understood in them.
+    /// The first rule or date that is not valid.
     pub fn new(rules: &Rules, course: &Course) -> Result<Self, String> {
         let zone = zone(&rules.time_zone)?;
         // Deadlines are read in favour of the student, too.
@@ -71,12 +71,12 @@ impl Policy {
         Ok(Self { rules: rules.clone(), deadline, extensions, zone })
     }
 
-    /// The time zone in which times without an offset are meant.
+    /// Time zone of times without an offset.
     pub fn zone(&self) -> &TimeZone {
         &self.zone
     }
 
-    /// The deadline of a student who goes by these names, and the reason if it is an extended one.
+    /// Deadline of a student who goes by these names, with the reason if it is an extension; `None` if there is none.
     pub fn deadline(&self, student: &[&str]) -> Option<(Timestamp, Option<&str>)> {
         let extension = student.iter().find_map(|name| self.extensions.get(&key(name)));
         match extension {
@@ -85,19 +85,19 @@ impl Policy {
         }
     }
 
-    /// Those who have an extension, as they are named in the course's file.
+    /// Names of students with an extension, as in the course's file.
     pub fn extended(&self) -> impl Iterator<Item = &str> {
         self.extensions.keys().map(String::as_str)
     }
 
-    /// How a submission stands. `checksums` are those of the files that came.
+    /// Lateness of a submission. `checksums` are the MD5 sums of the files that were received.
     pub fn judge(&self, student: &[&str], receipt: Option<&Receipt>, checksums: &[String]) -> Lateness {
         let in_time = |why: String| Lateness { standing: Standing::InTime, late_by: None, factor: 1.0, why };
         let Some((deadline, extension)) = self.deadline(student) else { return in_time(String::new()) };
         let mut why: Vec<String> =
             extension.map(|reason| format!("extension: {reason}")).into_iter().collect();
         let Some(receipt) = receipt.filter(|receipt| receipt.received_at.is_some()) else {
-            why.push("nobody said when it came".to_owned());
+            why.push("no receipt time".to_owned());
             return Lateness { standing: Standing::Unknown, late_by: None, factor: 1.0, why: why.join("; ") };
         };
         let received = receipt.received_at.unwrap_or(deadline);
@@ -105,7 +105,7 @@ impl Policy {
         let matches =
             receipt.md5.as_ref().map(|md5| checksums.iter().any(|sum| sum.eq_ignore_ascii_case(md5)));
         if matches == Some(false) {
-            why.push("md5-wrong: no file that came has the checksum that was sent".to_owned());
+            why.push("md5-wrong: no file has the checksum that was sent".to_owned());
         }
         if !late_by.is_positive() {
             return in_time(why.join("; "));
@@ -113,13 +113,13 @@ impl Policy {
         if let (Some(rule), Some(true)) = (self.rules.md5, matches) {
             let checksum_in_time = receipt.md5_received_at.is_some_and(|time| time <= deadline);
             if checksum_in_time && late_by <= hours(rule.within_hours) {
-                why.push("md5: its checksum came in time".to_owned());
+                why.push("md5: its checksum was received in time".to_owned());
                 return in_time(why.join("; "));
             }
             why.push(if checksum_in_time {
-                format!("md5: the file came more than {} hours after the deadline", rule.within_hours)
+                format!("md5: the file was received more than {} hours after the deadline", rule.within_hours)
             } else {
-                "md5: its checksum did not come in time either".to_owned()
+                "md5: its checksum was not received in time either".to_owned()
             });
         }
         let accepted = self.rules.late.filter(|rule| late_by < hours(rule.less_than_hours));
@@ -132,7 +132,7 @@ impl Policy {
         }
     }
 
-    /// Raw points as they count.
+    /// Points that count, rounded as the rules say.
     pub fn points(&self, raw: f64, lateness: &Lateness) -> f64 {
         if lateness.factor == 1.0 {
             return raw;
@@ -152,7 +152,7 @@ fn key(student: &str) -> String {
 }
 
 impl Lateness {
-    /// By how much it is late, for people: "1 h 05 min 00 s".
+    /// How late it is, as in "1 h 05 min 00 s"; empty if it is not.
     pub fn late_by_text(&self) -> String {
         self.late_by.map_or_else(String::new, |seconds| {
             format!("{} h {:02} min {:02} s", seconds / 3600, seconds / 60 % 60, seconds % 60)

@@ -1,4 +1,4 @@
-//! When submissions came: a CSV file of the staff's.
+//! The manifest: receipt times of submissions, a CSV file written by staff.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -10,32 +10,32 @@ use super::{Lateness, Policy, Standing, parse_received};
 use crate::table::Table;
 use verdict::error::{Error, Result};
 
-/// What is known of one submission's arrival.
+/// Receipt of one submission.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Receipt {
-    /// When the file came.
+    /// Receipt time of the file; `None` if unknown.
     pub received_at: Option<Timestamp>,
     /// The MD5 checksum that the student sent, in hexadecimal.
     pub md5: Option<String>,
-    /// When that came.
+    /// Receipt time of the checksum.
     pub md5_received_at: Option<Timestamp>,
-    /// Which file or folder it is about, below the folder of the class; empty if there is only one.
+    /// File or folder of the submission, relative to the folder of the class; empty if the student sent only one.
     pub path: String,
 }
 
 /// All receipts of a class. The columns of the file are `student` (login, number, e-mail address, or the name of the
-/// submission's folder), `received_at`, and where they are needed `md5`, `md5_received_at` and `path`. A student who sent
-/// several has several rows.
+/// submission's folder), `received_at`, and optionally `md5`, `md5_received_at` and `path`. A student who sent several
+/// submissions has several rows.
 #[derive(Clone, Debug, Default)]
 pub struct Manifest {
     receipts: BTreeMap<String, Vec<Receipt>>,
 }
 
 impl Manifest {
-    /// Reads the file. Times without an offset are those of the zone.
+    /// Reads the file. Times without an offset are in `zone`.
     ///
     /// # Errors
-    /// The first row that cannot be understood, with its line.
+    /// The first invalid row, with its line.
     pub fn load(path: &Path, zone: &TimeZone) -> Result<Self> {
         let table = Table::load(path)?;
         let column = |name: &str| table.column(&[name]);
@@ -66,20 +66,20 @@ impl Manifest {
         Ok(manifest)
     }
 
-    /// The students that it names, in small letters.
+    /// Names of all students in it, in lower case.
     pub fn students(&self) -> impl Iterator<Item = &str> {
         self.receipts.keys().map(String::as_str)
     }
 
-    /// The receipts of a student who goes by these names.
+    /// Receipts of a student who goes by these names.
     pub fn of(&self, student: &[&str]) -> &[Receipt] {
         let found = student.iter().find_map(|name| self.receipts.get(&name.trim().to_lowercase()));
         found.map_or(&[], Vec::as_slice)
     }
 }
 
-/// Of several submissions, the last that is accepted counts; if none is, the last. What came at the same time counts in
-/// the order of the manifest.
+/// The submission that counts: the last one that is accepted, or else the last one. Those with the same receipt time
+/// count in the order of the manifest.
 pub(crate) fn the_one_that_counts<'a>(
     policy: &Policy,
     student: &[&str],

@@ -1,9 +1,9 @@
-//! When a submission counts, and how much.
+//! The late policy: which submissions count, and how much.
 //!
-//! The rules of the sheet ([`Rules`]) stand in the rubric; the dates of a course and the extensions of its students
-//! ([`Course`]) in a file of the course's own, since they change each term and concern nobody else. Both together are
-//! a [`Policy`]. When a submission came is told by the staff's side alone ([`Manifest`]), never by the times of files.
-//! Raw points are what is stored; the penalty is computed from them and the policy each time that a table is made.
+//! [`Rules`] are part of the rubric. The dates of a course and the extensions of its students ([`Course`]) are in a file
+//! of their own, since they change each term. Both together are a [`Policy`]. Receipt times come from the staff
+//! ([`Manifest`]), never from the times of files. Only raw points are stored; penalties are computed each time that a
+//! table is written.
 
 mod course;
 mod judge;

@@ -1,26 +1,26 @@
-//! Instants as people write them.
+//! Parsing of dates and times.
 
 use jiff::Timestamp;
 use jiff::civil::DateTime;
 use jiff::tz::{AmbiguousOffset, TimeZone};
 
-/// Which of two instants is meant in the hour that the clocks go through twice.
+/// Which of two instants a local time means in the hour that is repeated when clocks are set back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Repeated {
     Earlier,
     Later,
 }
 
-/// When something was received: with an offset (`2026-05-21T23:59:00+02:00`, `…Z`) or as a local time. In the hour
-/// that the clocks go through twice, a local time is read as the earlier one, in favour of the student.
+/// Parses a receipt time, with an offset (`2026-05-21T23:59:00+02:00`, `…Z`) or local. In the hour that is repeated when
+/// clocks are set back, a local time means the earlier instant, in favour of the student.
 ///
 /// # Errors
-/// If it is no time, or one that the clocks of the zone jumped over.
+/// If it is not a time, or one that was skipped when clocks were set forward.
 pub fn parse_received(text: &str, zone: &TimeZone) -> Result<Timestamp, String> {
     parse(text, zone, Repeated::Earlier)
 }
 
-/// An instant, with an offset or as a local time.
+/// Parses an instant, with an offset or as a local time.
 pub(super) fn parse(text: &str, zone: &TimeZone, repeated: Repeated) -> Result<Timestamp, String> {
     let text = text.trim();
     if let Ok(instant) = text.parse::<Timestamp>() {

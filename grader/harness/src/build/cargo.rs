@@ -10,22 +10,22 @@ use super::compiler::Compiler;
 use crate::workspace::Workspace;
 use verdict::error::{Error, Result};
 
-/// What Cargo is asked for.
+/// Arguments of Cargo.
 const ARGUMENTS: [&str; 8] =
     ["build", "--package", "host", "--features", "serve", "--profile", "grading", "--locked"];
 
-/// The compiled libraries, where Cargo has put them.
+/// Paths of the compiled libraries in Cargo's target folder.
 pub(super) struct Libraries {
     /// The library `arty`.
     pub(super) arty: PathBuf,
     /// The library `host`.
     pub(super) host: PathBuf,
-    /// All that was compiled for them, too.
+    /// All of their dependencies.
     pub(super) all: Vec<PathBuf>,
 }
 
 impl Libraries {
-    /// The folder of all that these two need.
+    /// Folder of the dependencies.
     pub(super) fn dependencies(&self) -> PathBuf {
         // Cargo names the copy of a library beside the profile's programs; what it needs lies in `deps`.
         let folder = self.arty.parent().unwrap_or(Path::new("."));
@@ -33,7 +33,7 @@ impl Libraries {
     }
 }
 
-/// The part of Cargo's messages that names what was built.
+/// Cargo's message about a built artifact.
 #[derive(Deserialize)]
 struct Message {
     reason: String,
@@ -47,7 +47,7 @@ struct Target {
     name: String,
 }
 
-/// Has Cargo build the framework, or find that it is up to date. `key` stands for all that it is built from.
+/// Builds the framework with Cargo unless it is up to date. `key` is the hash of everything it is built from.
 pub(super) fn build(workspace: &Workspace, compiler: &Compiler, key: &str) -> Result<Libraries> {
     // Cargo goes by the times of files. Those of a copy or an archive may be older than what was built of others.
     let stamp = workspace.framework_target().join("key");
@@ -89,7 +89,7 @@ pub(super) fn build(workspace: &Workspace, compiler: &Compiler, key: &str) -> Re
     Ok(Libraries { arty: library("arty")?, host: library("host")?, all: libraries.cloned().collect() })
 }
 
-/// What Cargo prints.
+/// Runs Cargo and returns its standard output.
 fn run(workspace: &Workspace, compiler: &Compiler, arguments: &[&str]) -> Result<String> {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo
@@ -118,7 +118,7 @@ fn run(workspace: &Workspace, compiler: &Compiler, arguments: &[&str]) -> Result
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
-/// True for variables by which the environment would change what Cargo builds.
+/// True for environment variables that would change what Cargo builds.
 fn decides(variable: &str) -> bool {
     let beginnings = ["CARGO_PROFILE_", "CARGO_BUILD_", "CARGO_INCREMENTAL", "RUSTC_BOOTSTRAP"];
     variable.contains("RUSTFLAGS")

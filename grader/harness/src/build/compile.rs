@@ -1,4 +1,4 @@
-//! One call of rustc: the submission, the fixed program around it, the framework.
+//! Compiling one submission: one call of rustc on its source and the fixed program around it.
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -19,27 +19,27 @@ use verdict::text::clean;
 /// The program around a submission.
 const PROGRAM: &str = include_str!("../../../host/program/main.rs");
 
-/// A submission, compiled. Its files are removed when this is dropped.
+/// A compiled submission. Its files are removed when this is dropped.
 #[derive(Debug)]
 pub struct SubmissionProgram {
-    /// The program.
+    /// Path of the program.
     pub executable: PathBuf,
-    /// How long rustc took; nothing if it was compiled earlier.
+    /// Time that rustc took; zero if it was compiled earlier.
     pub compile_time: Duration,
-    /// What it may use up when it runs.
+    /// Limits when it runs.
     pub limits: Limits,
-    /// How rustc was confined, if it was called now.
+    /// Sandbox layers of rustc, if it was called now.
     pub layers: Layers,
     folder: Scratch,
 }
 
 impl SubmissionProgram {
-    /// The user that it is run as.
+    /// User that it runs as.
     pub(crate) fn account(&self) -> &Arc<Account> {
         self.folder.account()
     }
 
-    /// A program that was compiled before, from the bytes of its executable.
+    /// Restores a program from the bytes of its executable.
     pub fn again(executable: &[u8], limits: &Limits) -> Result<Self> {
         let trouble = |error| Error::Harness(format!("a program cannot be copied: {error}"));
         let folder = Scratch::new()?;
@@ -59,13 +59,13 @@ impl SubmissionProgram {
     }
 }
 
-/// Over all that decides how a source is compiled, but for source and framework.
+/// Hash of everything that decides how a source is compiled, except the source and the framework.
 pub fn recipe() -> blake3::Hash {
     blake3::hash(&[PROGRAM.as_bytes(), include_bytes!("compile.rs")].concat())
 }
 
-/// A submission that compiles wherever compiling works at all.
-pub(crate) const EMPTY_HAND_IN: &str = "use arty::prelude::*;
+/// A submission that compiles on every machine that can compile one.
+pub(crate) const EMPTY_SUBMISSION: &str = "use arty::prelude::*;
 pub struct PathTracer;
 impl PathTracer { pub fn new(_: Settings) -> Self { Self } }
 impl Integrator for PathTracer {
@@ -73,8 +73,8 @@ impl Integrator for PathTracer {
 }
 ";
 
-/// Compiles the source of a submission, in a sandbox, unless it says something that has it refused, and looks at what was
-/// linked. The outer error is the harness's, the inner one the submission's.
+/// Compiles the source of a submission in a sandbox and inspects the linked program. A source with forbidden words is
+/// not compiled. The outer error is the harness's, the inner one the submission's.
 pub fn compile(
     framework: &Framework,
     source: &str,
@@ -97,7 +97,7 @@ pub fn compile(
         Err(failure) => return Ok(Err(failure)),
     };
     if let Look::Unreadable(line) = look {
-        let why = "this cannot be read, though rustc can: write it in another way";
+        let why = "this source compiles but cannot be inspected: rewrite this part";
         return Ok(Err(not_run(Some(line), &[why.to_owned()])));
     }
     usual?;
@@ -105,8 +105,8 @@ pub fn compile(
     Ok(if differences.is_empty() { Ok(program) } else { Err(not_run(None, &differences)) })
 }
 
-/// In what a program differs from that of an empty submission, of all that decides what runs before `main`: in words, and in
-/// nothing unless something is wrong.
+/// Differences between a program and that of an empty submission in whatever decides what runs before `main`. Empty
+/// unless something is wrong.
 ///
 /// # Errors
 /// If one of them cannot be read.
@@ -115,15 +115,15 @@ pub fn differences(framework: &Framework, program: &SubmissionProgram) -> Result
     Ok(Shape::of(&program.executable)?.differences(usual))
 }
 
-/// Compiles a submission that must compile wherever anything does. What is linked of others is held against it.
+/// Compiles an empty submission. Other programs are compared with its shape.
 ///
 /// # Errors
-/// If it does not.
+/// If it does not compile.
 pub(crate) fn compile_empty(framework: &Framework, limits: &Limits) -> Result<SubmissionProgram> {
-    let program = match compile_once(framework, EMPTY_HAND_IN, limits, true)? {
+    let program = match compile_once(framework, EMPTY_SUBMISSION, limits, true)? {
         Ok(program) => program,
         // A toolchain whose files lie where the sandbox does not expect them. The report will tell its level.
-        Err(_) => compile_once(framework, EMPTY_HAND_IN, limits, false)?.map_err(|failure| {
+        Err(_) => compile_once(framework, EMPTY_SUBMISSION, limits, false)?.map_err(|failure| {
             let folder = framework.dependencies.display();
             Error::Harness(format!(
                 "not even an empty submission compiles here, against the libraries in {folder}:\n{}",
@@ -143,7 +143,7 @@ fn usual_shape<'a>(framework: &'a Framework, limits: &Limits) -> Result<&'a Shap
     usual.ok_or_else(|| Error::Harness("the program of an empty submission cannot be read".to_owned()))
 }
 
-/// The failure of a source that is not even compiled.
+/// Failure of a source that is refused before it is compiled.
 fn refused(refusals: &[refuse::Refusal]) -> BuildFailure {
     let lines = refusals.iter().map(|refusal| {
         let refuse::Refusal { line, what, why } = refusal;
@@ -153,10 +153,10 @@ fn refused(refusals: &[refuse::Refusal]) -> BuildFailure {
     BuildFailure { messages: clean(&lines.collect::<Vec<_>>().join("\n")), line }
 }
 
-/// The failure of a program that was compiled, and must not run.
+/// Failure of a program that was compiled but must not run.
 fn not_run(line: Option<usize>, why: &[String]) -> BuildFailure {
     let mut messages =
-        "error: the program is not run: it is not what an ordinary submission compiles to\n".to_owned();
+        "error: the program is not run: it differs from what safe Rust compiles to\n".to_owned();
     if let Some(line) = line {
         messages.push_str(&format!(" --> render_pt.rs:{line}\n"));
     }
@@ -166,10 +166,10 @@ fn not_run(line: Option<usize>, why: &[String]) -> BuildFailure {
     BuildFailure { messages: clean(&messages), line: line.and_then(|line| u32::try_from(line).ok()) }
 }
 
-/// Differences that are listed at most.
+/// Maximum number of differences that are listed.
 const LISTED: usize = 20;
 
-/// Compiles with the sandbox that the toolchain bears.
+/// Compiles in the strongest sandbox that the toolchain works in.
 fn compile_anywhere(
     framework: &Framework,
     source: &str,
@@ -184,7 +184,7 @@ fn compile_anywhere(
         return Err(Error::Harness(format!("the framework's libraries are gone from {folder}: grade again")));
     }
     // No line of the submission is to blame: is it the machine? A missing linker, a full disk?
-    if failure.line.is_some() || compile_once(framework, EMPTY_HAND_IN, limits, true)?.is_ok() {
+    if failure.line.is_some() || compile_once(framework, EMPTY_SUBMISSION, limits, true)?.is_ok() {
         return Ok(Err(failure));
     }
     // Or a toolchain whose files lie where the sandbox does not expect them?

@@ -7,16 +7,16 @@ use verdict::error::{Error, Result};
 
 /// A Rust compiler.
 pub(super) struct Compiler {
-    /// Its program.
+    /// Path of rustc.
     pub(super) rustc: PathBuf,
-    /// The folder of its libraries.
+    /// Folder of its libraries (the sysroot).
     pub(super) sysroot: PathBuf,
-    /// All that it says of its version; name and version stand on the first line.
+    /// Output of `rustc -vV`; the first line is name and version.
     pub(super) version: String,
 }
 
 impl Compiler {
-    /// Asks for the one of a checkout, which may have its own.
+    /// Finds the compiler of a checkout, which may have a toolchain of its own.
     pub(super) fn of(root: &Path) -> Result<Self> {
         // Both at once: rustup's stand-in takes its time to find out whom to ask.
         let (version, sysroot) = rayon::join(|| ask(root, "-vV"), || ask(root, "--print=sysroot"));
@@ -28,13 +28,13 @@ impl Compiler {
         Ok(Self { rustc, sysroot, version })
     }
 
-    /// Its name and version.
+    /// Name and version.
     pub(super) fn name(&self) -> &str {
         self.version.lines().next().unwrap_or_default()
     }
 }
 
-/// What rustc answers to a question about itself.
+/// Runs rustc and returns its standard output.
 fn ask(root: &Path, question: &str) -> Result<String> {
     let trouble = |what: &str| Error::Harness(format!("rustc could not be run: {what}"));
     let output = Command::new(named())
@@ -49,7 +49,7 @@ fn ask(root: &Path, question: &str) -> Result<String> {
     Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
 
-/// The compiler that the environment names.
+/// The compiler that environment variables name.
 fn named() -> PathBuf {
     std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()).into()
 }

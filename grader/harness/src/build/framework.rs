@@ -21,24 +21,24 @@ pub struct Framework {
     pub arty: PathBuf,
     /// The library `host`.
     pub host: PathBuf,
-    /// The folder with these and all that they need.
+    /// Folder of these libraries and their dependencies.
     pub dependencies: PathBuf,
-    /// BLAKE3 over all that they are built from.
+    /// BLAKE3 of everything that they are built from.
     pub hash: String,
-    /// The compiler, as it names itself.
+    /// Name and version of the compiler.
     pub toolchain: String,
-    /// The compiler's program.
+    /// Path of rustc.
     pub rustc: PathBuf,
-    /// What the compiler needs to be granted.
+    /// Files that the sandbox must grant to the compiler.
     pub grants: Grants,
-    /// The shape of the program of an empty submission, once one was compiled; `None` if it could not be read.
+    /// Shape of the program of an empty submission, once one has been compiled; `None` if it could not be read.
     pub(super) usual: Arc<OnceLock<Option<Shape>>>,
-    /// Nobody removes it as long as this is there.
+    /// Lock that keeps the libraries from being removed.
     kept: Option<Arc<Kept>>,
 }
 
 impl Framework {
-    /// Takes the framework from where it is kept for all checkouts of this user, or builds it and keeps it there.
+    /// Takes the framework from the user's cache, or builds it and adds it to the cache.
     ///
     /// # Errors
     /// If it does not build, or if there is no compiler.
@@ -67,7 +67,7 @@ impl Framework {
         })
     }
 
-    /// True if none was ever built for this user or in this checkout, so that it is worth a word that it takes its time.
+    /// True if no framework was ever built for this user or in this checkout, so that the build will take a while.
     pub fn is_first(workspace: &Workspace) -> bool {
         !workspace.framework_target().exists()
             && !kept::cache_dir().is_some_and(|cache_dir| cache_dir.exists())
@@ -94,16 +94,16 @@ impl Framework {
         }
     }
 
-    /// True as long as nobody has removed the libraries.
+    /// True as long as the libraries are there.
     pub(super) fn is_there(&self) -> bool {
         self.arty.is_file() && self.host.is_file() && self.kept.as_ref().is_none_or(|kept| kept.is_whole())
     }
 }
 
-/// What of `skeleton/src` has no part in the libraries: the student's file, the program.
+/// Parts of `skeleton/src` that are not compiled into the libraries: the student's file and the command line.
 const NO_PART: [&str; 3] = ["algorithms", "cli", "main.rs"];
 
-/// Over all that decides what Cargo builds: how it is called, sources, versions of dependencies, settings, the compiler.
+/// Hash of everything that decides what Cargo builds: arguments, sources, versions of dependencies, settings, compiler.
 fn key_of(workspace: &Workspace, compiler: &Compiler) -> Result<String> {
     let mut hasher = blake3::Hasher::new();
     hasher.update(include_bytes!("cargo.rs"));

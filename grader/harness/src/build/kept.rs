@@ -1,8 +1,8 @@
-//! Built frameworks, kept for all checkouts of a user.
+//! Cache of built frameworks, shared by all checkouts of a user.
 //!
-//! Each lies in a folder named by the hash of what it was built from. A checkout whose framework was built before, at
-//! another place or before a `cargo clean`, needs no Cargo. A folder is whole from the moment that it has its name, and is
-//! locked by all who use it; of those that nobody uses only the last few stay.
+//! Each is in a folder named by the hash of everything it was built from, so that a framework built in another checkout,
+//! or before a `cargo clean`, is found without Cargo. A folder is complete once it has its name, and every user of it
+//! holds a lock. Of the unused ones only the most recent are kept.
 
 use std::collections::BTreeMap;
 use std::fs::{DirEntry, File, OpenOptions};
@@ -16,13 +16,13 @@ use serde::{Deserialize, Serialize};
 use super::cargo::Libraries;
 use super::scratch::{IN_USE, remove_unused};
 
-/// How many stay, the one in use included.
+/// Maximum number of frameworks that are kept, the one in use included.
 const MAX_KEPT: usize = 4;
 
-/// How names of folders begin that are not whole yet.
+/// Prefix of folders that are not complete yet.
 const BEGUN: &str = "begun-";
 
-/// The folder for the frameworks of a user; it may be one that nobody can write to.
+/// Cache folder of the user, which may not be writable; `None` if the user has none.
 pub(super) fn cache_dir() -> Option<PathBuf> {
     // Root's own folders are closed to the user that a submission is compiled by, if nobody has named another.
     #[cfg(unix)]
@@ -32,7 +32,7 @@ pub(super) fn cache_dir() -> Option<PathBuf> {
     Some(etcetera::choose_base_strategy().ok()?.cache_dir().join("arty").join("frameworks"))
 }
 
-/// A framework, kept as long as this lives.
+/// A framework in the cache, locked as long as this lives.
 #[derive(Debug)]
 pub(super) struct Kept {
     folder: PathBuf,
@@ -40,7 +40,7 @@ pub(super) struct Kept {
     in_use: File,
 }
 
-/// What is in a folder.
+/// List of the files in a folder.
 #[derive(Debug, Serialize, Deserialize)]
 struct Contents {
     arty: PathBuf,
@@ -53,7 +53,7 @@ const CONTENTS: &str = "contents.json";
 const LIBRARIES: &str = "libraries";
 
 impl Kept {
-    /// Looks for a framework; `None` if it is not there, or not as it was put there.
+    /// Looks for a framework; `None` if it is not there or damaged.
     pub(super) fn find(cache_dir: &Path, key: &str) -> Option<Self> {
         let folder = cache_dir.join(key);
         // For both, since some file systems lock for reading only who may read.
@@ -67,13 +67,13 @@ impl Kept {
         kept.is_whole().then_some(kept)
     }
 
-    /// True if all libraries are there, and as large as they were.
+    /// True if all libraries are there and have their sizes.
     pub(super) fn is_whole(&self) -> bool {
         let size = |name: &PathBuf| Some(std::fs::metadata(self.libraries().join(name)).ok()?.len());
         self.contents.sizes.iter().all(|(name, &bytes)| size(name) == Some(bytes))
     }
 
-    /// Keeps what Cargo has built, for [`find`](Self::find), in place of what is damaged or has not been used for long.
+    /// Adds what Cargo has built to the cache, and removes what is damaged or has not been used for long.
     pub(super) fn keep(cache_dir: &Path, key: &str, built: &Libraries) -> Result<()> {
         std::fs::create_dir_all(cache_dir)?;
         let folder = tempfile::Builder::new().prefix(BEGUN).tempdir_in(cache_dir)?;
@@ -112,7 +112,7 @@ impl Kept {
         self.libraries().join(&self.contents.host)
     }
 
-    /// The folder with both and all that they need.
+    /// Folder of both libraries and their dependencies.
     pub(super) fn libraries(&self) -> PathBuf {
         self.folder.join(LIBRARIES)
     }
@@ -122,7 +122,7 @@ fn name_of(file: &Path) -> Result<PathBuf> {
     file.file_name().map(PathBuf::from).ok_or_else(|| Error::other("a library without a name"))
 }
 
-/// Undoes that a temporary folder is for its owner only.
+/// Makes a temporary folder readable for other users.
 fn open_to_others(folder: &Path) -> Result<()> {
     #[cfg(unix)]
     std::fs::set_permissions(folder, std::os::unix::fs::PermissionsExt::from_mode(0o755))?;
@@ -130,7 +130,7 @@ fn open_to_others(folder: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Removes what nobody uses, but for those used last; also what was begun by graders that are gone.
+/// Removes unused frameworks except the most recent ones, and incomplete folders of graders that were killed.
 fn remove_old(cache_dir: &Path) {
     let entries = || std::fs::read_dir(cache_dir).into_iter().flatten().flatten();
     let is_begun = |entry: &DirEntry| entry.file_name().to_string_lossy().starts_with(BEGUN);

@@ -1,18 +1,17 @@
-//! What a submission must not contain, whatever the compiler thinks of it.
+//! Words that a submission must not contain, whatever the compiler says.
 //!
-//! `forbid(unsafe_code)` is a lint, and has had holes: naked functions are none of its business (Rust 1.88). So a source
-//! with a word that could have code of it called from outside of `main` is refused before it is compiled, and so is one
-//! that cannot be looked through. Comments and strings are not code and are never hit; neither is a variable of such a
-//! name. The sandbox does not depend on it.
+//! `forbid(unsafe_code)` is a lint with holes: it does not cover naked functions (Rust 1.88). So a source with a word that
+//! could have its code called from outside of `main` is refused before it is compiled, and so is one that cannot be
+//! tokenized. Comments, strings and variables of such a name are allowed. The sandbox does not depend on this.
 
 use std::str::FromStr;
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
-/// A word that has a source refused.
+/// A forbidden word.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Refusal {
-    /// Its line, counted from 1.
+    /// Line, counted from 1.
     pub(crate) line: usize,
     /// The word, as in `#[no_mangle]`.
     pub(crate) what: String,
@@ -20,25 +19,25 @@ pub(crate) struct Refusal {
     pub(crate) why: &'static str,
 }
 
-/// What a look through a source has found.
+/// Result of searching a source.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Look {
-    /// Words that have it refused, by line; none if all is well.
+    /// Forbidden words by line; empty if there are none.
     Through(Vec<Refusal>),
-    /// It is no Rust as far as can be seen, from about this line on. The compiler says more about it, or it is not run.
+    /// The source is not Rust from about this line on. If the compiler accepts it all the same, it is not run.
     Unreadable(usize),
 }
 
-/// Refusals that are listed at most.
+/// Maximum number of refusals that are listed.
 const LISTED: usize = 20;
 
-const UNSAFE: &str = "unsafe code is forbidden: write it in safe Rust";
-const FOREIGN: &str = "a submission has no functions of other languages: take `extern` away";
-const ASSEMBLER: &str = "a submission has no assembler: write it in Rust";
-const LINKER: &str = "a submission has nothing to tell the linker: take the attribute away";
-const PROGRAM: &str = "the program around a submission is fixed: take the attribute away";
+const UNSAFE: &str = "unsafe code is forbidden: use safe Rust";
+const FOREIGN: &str = "functions of other languages are forbidden: remove `extern`";
+const ASSEMBLER: &str = "assembler is forbidden: use Rust";
+const LINKER: &str = "attributes for the linker are forbidden: remove it";
+const PROGRAM: &str = "the program around a submission is fixed: remove the attribute";
 
-/// Attributes that speak to the linker, or change what a program is.
+/// Attributes that control the linker or the kind of program.
 const ATTRIBUTES: [(&str, &str); 21] = [
     ("naked", ASSEMBLER),
     ("no_mangle", LINKER),
@@ -63,15 +62,15 @@ const ATTRIBUTES: [(&str, &str); 21] = [
     ("panic_runtime", PROGRAM),
 ];
 
-/// Macros of the assembler that nobody names by chance.
+/// Assembler macros, whose names nobody uses by chance.
 const MACROS: [&str; 2] = ["global_asm", "naked_asm"];
 
-/// Looks through a source.
+/// Searches a source for forbidden words.
 pub(crate) fn look(source: &str) -> Look {
     // What rustc passes over as a line for a shell may hide the beginning of a comment that it does not see.
     let start = source.strip_prefix('\u{feff}').unwrap_or(source);
     if start.starts_with("#!") && !start.starts_with("#![") {
-        let why = "a submission is no script: take the line away";
+        let why = "a submission is not a script: remove the line";
         return Look::Through(vec![Refusal { line: 1, what: "#!".to_owned(), why }]);
     }
     let look = match TokenStream::from_str(source) {
@@ -157,7 +156,7 @@ fn refusals(tokens: TokenStream) -> Vec<Refusal> {
     found
 }
 
-/// Where tokens stand.
+/// Context of a token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Place {
     /// Within the brackets of an attribute.

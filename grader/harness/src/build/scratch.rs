@@ -1,7 +1,7 @@
-//! Temporary folders of submissions, and those that interrupted graders have left behind.
+//! Temporary folders of submissions, and removal of those that interrupted graders have left behind.
 //!
-//! A grader that is killed removes nothing. So each folder holds a file that its grader keeps locked: a folder whose file
-//! can be locked is nobody's any more, whatever process numbers say, which differ from container to container.
+//! A grader that is killed removes nothing. So each folder holds a file that its grader keeps locked: if it can be locked,
+//! the folder is unused. Process numbers would not tell, since they differ between containers.
 
 use std::fs::{File, OpenOptions};
 use std::io::Result;
@@ -14,16 +14,16 @@ use tempfile::TempDir;
 use crate::sandbox::Account;
 use verdict::error::{self, Error};
 
-/// How their names begin.
+/// Prefix of the names of the folders.
 const PREFIX: &str = "arty-submission-";
 
 /// The file that is locked while the folder is in use.
 pub(super) const IN_USE: &str = "in-use";
 
-/// A folder without the file is being made, or was when its grader was killed: then it is this old.
+/// Minimum age at which a folder without that file counts as left behind: younger ones may still be in the making.
 const SURELY_LEFT: Duration = Duration::from_secs(3600);
 
-/// A temporary folder, which is removed when this is dropped.
+/// A temporary folder that is removed when this is dropped.
 #[derive(Debug)]
 pub(super) struct Scratch {
     folder: TempDir,
@@ -32,7 +32,7 @@ pub(super) struct Scratch {
 }
 
 impl Scratch {
-    /// Makes a folder, and takes a user id for it. The first time, folders of graders that were interrupted are removed.
+    /// Makes a folder and takes a user id for it. The first call removes folders of interrupted graders.
     pub(super) fn new() -> error::Result<Self> {
         let account = Arc::new(Account::take()?);
         Self::of(account).map_err(|error| Error::Harness(format!("no temporary folder: {error}")))
@@ -52,23 +52,23 @@ impl Scratch {
         Ok(Self { folder, _in_use: in_use, account })
     }
 
-    /// Gives the folder and its files to its user; nobody else but root can look into it.
+    /// Gives the folder and its files to its user; only root can read it, too.
     pub(super) fn hand_over(&self) -> error::Result<()> {
         self.account.own(self.path())
     }
 
-    /// The user that it is for.
+    /// User of the folder.
     pub(super) fn account(&self) -> &Arc<Account> {
         &self.account
     }
 
-    /// Its path.
+    /// Path of the folder.
     pub(super) fn path(&self) -> &Path {
         self.folder.path()
     }
 }
 
-/// Removes what nobody uses any more. Folders of other users stay.
+/// Removes unused folders, except those of other users.
 fn remove_left_behind(parent: &Path) {
     for entry in std::fs::read_dir(parent).into_iter().flatten().flatten() {
         let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
@@ -78,7 +78,7 @@ fn remove_left_behind(parent: &Path) {
     }
 }
 
-/// Removes a folder if nobody uses it, and keeps everybody from using it meanwhile.
+/// Removes a folder if it is unused, and locks it meanwhile.
 pub(super) fn remove_unused(folder: &Path) {
     let file = folder.join(IN_USE);
     // A pipe of that name would not be opened before somebody writes to it.

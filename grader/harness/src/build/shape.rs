@@ -1,7 +1,7 @@
-//! What of a linked program decides what runs in it before `main`, and what it gives to and takes from others.
+//! The shape of a linked program: whatever decides what runs before `main`, and which symbols it imports and exports.
 //!
-//! A submission has no means to change that, as far as the compiler keeps its promises. So a program whose shape is not that
-//! of the program of an empty submission is not run. The sandbox does not depend on it.
+//! Safe Rust cannot change it. So a program whose shape differs from that of an empty submission is not run. The sandbox
+//! does not depend on this.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -17,31 +17,31 @@ use verdict::error::{Error, Result};
 pub(crate) struct Shape {
     /// Sizes of all sections, in bytes.
     sections: BTreeMap<String, u64>,
-    /// The program that loads it.
+    /// Path of the dynamic loader.
     loader: Vec<u8>,
-    /// Kinds of entries of the dynamic section: initialisers, search paths and the like are such.
+    /// Kinds of entries in the dynamic section, such as initializers and search paths.
     dynamic: BTreeSet<String>,
     /// Shared libraries.
     libraries: BTreeSet<String>,
-    /// Symbols that it takes from shared libraries.
+    /// Symbols imported from shared libraries.
     imports: BTreeSet<String>,
-    /// Symbols that it gives to shared libraries.
+    /// Symbols exported to shared libraries.
     exports: BTreeSet<String>,
-    /// All global symbols that it defines.
+    /// All global symbols that are defined.
     defined: BTreeSet<String>,
-    /// Relocations that call a function while the program is loaded, and symbols that do.
+    /// Number of relocations and symbols that call a function while the program is loaded.
     resolvers: usize,
-    /// Its first instruction is that of the C library's start.
+    /// True if the first instruction is that of the C library's entry point.
     starts_as_usual: bool,
-    /// Some memory can be written and executed.
+    /// True if some memory is both writable and executable.
     writes_code: bool,
 }
 
-/// Sections of what runs before `main` or after it, or decides who loads the program: they have to be as long as usual.
+/// Sections of code that runs before or after `main`, and of the loader's name: they must have their usual size.
 const FIXED: [&str; 8] =
     [".init", ".fini", ".init_array", ".fini_array", ".preinit_array", ".ctors", ".dtors", ".interp"];
 
-/// Sections of code and data, one or another of which a small program may be without.
+/// Sections of code and data, some of which a small program may lack.
 const ORDINARY: [&str; 12] = [
     ".text",
     ".rodata",
@@ -57,14 +57,14 @@ const ORDINARY: [&str; 12] = [
     ".relro_padding",
 ];
 
-/// Bytes of a program that is looked at: far more than any submission needs.
+/// Maximum size of a program in bytes, far more than any submission needs.
 const LARGEST: u64 = 256 << 20;
 
 impl Shape {
-    /// Looks at a program.
+    /// Reads the shape of a program.
     ///
     /// # Errors
-    /// If it cannot be read, or is none.
+    /// If the file cannot be read or is not a program.
     pub(crate) fn of(program: &Path) -> Result<Self> {
         let trouble = |why: &dyn std::fmt::Display| Error::Harness(format!("the linked program: {why}"));
         let length = std::fs::metadata(program).map_err(|error| trouble(&error))?.len();
@@ -124,7 +124,7 @@ impl Shape {
         Ok(shape)
     }
 
-    /// In what it differs from the program of an empty submission, in words; empty if in nothing that matters.
+    /// Differences from the program of an empty submission; empty if there are none that matter.
     pub(crate) fn differences(&self, usual: &Self) -> Vec<String> {
         let mut found = Vec::new();
         for name in self.sections.keys() {
@@ -163,7 +163,7 @@ impl Shape {
     }
 }
 
-/// Whether a relocation of this kind calls a function: `R_*_IRELATIVE`.
+/// True for `R_*_IRELATIVE`, the kind of relocation that calls a function.
 fn is_resolver(kind: u32) -> bool {
     let resolver = match std::env::consts::ARCH {
         "x86_64" => elf::R_X86_64_IRELATIVE.0,

@@ -1,23 +1,23 @@
-//! Programs of systems that have no sandbox for us: they are not looked at.
+//! Programs on systems without a sandbox: they are not inspected.
 
 use std::path::Path;
 
 use verdict::error::Result;
 
-/// The shape of a program: not known here.
+/// The shape of a program, which is unknown here.
 #[derive(Clone, Debug)]
 pub(crate) struct Shape;
 
 impl Shape {
-    /// Looks at a program.
+    /// Does nothing here.
     ///
     /// # Errors
-    /// None here.
+    /// Never.
     pub(crate) fn of(_: &Path) -> Result<Self> {
         Ok(Self)
     }
 
-    /// In what it differs from the program of an empty submission: in nothing, here.
+    /// Differences from the program of an empty submission: none here.
     pub(crate) fn differences(&self, _: &Self) -> Vec<String> {
         Vec::new()
     }

@@ -1,40 +1,40 @@
-//! How long an answer can be, and of how many parts.
+//! Limits on the size of an answer and on the number of its parts.
 
 use std::io::{self, Read};
 
 use host::protocol::{MAX_MESSAGE, Request, Response, decode, read_bytes};
 
-/// What the answer to one request can be at most. Longer ones are not read, and those of more parts not taken apart: a
-/// byte of an answer can be many in memory.
+/// Limits of the answer to one request. Longer answers are not read, and answers with more parts not decoded, since one
+/// byte of an answer can take many bytes of memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Expected {
     bytes: u32,
-    /// The kind of answer that has parts, as the first byte says it, and their number.
+    /// First byte of the kind of answer that has parts, and the number of parts.
     parts: Option<(u8, u64)>,
 }
 
-/// Bytes of an answer without numbers: at most the message of a panic.
+/// Maximum bytes of an answer without numbers, such as the message of a panic.
 const WORDS: u64 = 16 << 10;
 
 /// Bytes of one mean: three numbers.
 const MEAN: u64 = 12;
 
-/// Bytes of one path at most: three numbers, and three counts that take up to five bytes.
+/// Maximum bytes of one path: three numbers, and three counts of up to five bytes.
 const PATH: u64 = 12 + 3 * 5;
 
-/// Bytes of one call that is written down, at most, and how many there are.
+/// Maximum bytes of one recorded call, and maximum number of calls.
 const CALL: u64 = 1 << 10;
 const CALLS: u64 = 10_000;
 
 /// Bytes of a length.
 const LENGTH: u64 = 10;
 
-/// The first byte of an answer says which one it is.
+/// Kinds of answers, by their first byte.
 const RENDERED: u8 = 2;
 const PROBED: u8 = 3;
 
 impl Expected {
-    /// That a process is there.
+    /// The message that a process has started.
     pub(super) fn start() -> Self {
         Self::of(0, None)
     }
@@ -80,7 +80,7 @@ impl Expected {
     }
 }
 
-/// A length, as postcard writes it: seven bits a byte, the lowest first.
+/// A length in postcard's encoding: seven bits per byte, lowest first.
 fn length(bytes: &[u8]) -> Option<u64> {
     let mut value = 0;
     for (place, byte) in bytes.iter().take(9).enumerate() {
@@ -161,7 +161,8 @@ mod tests {
         assert!(error(&rendered(vec![Vec::new(); 9000])).contains("parts"));
         assert!(error(&Response::Probed(vec![Vec::new(); 9000])).contains("parts"));
         assert!(error(&rendered(vec![vec![[0.0; 3]; 4000]; 3])).contains("bytes"));
-        let path = ProbedPath { radiance: [0.0; 3], rays: 0, shadow_rays: 0, light_samples: 0 };
+        let path =
+            ProbedPath { radiance: [0.0; 3], rays: 0, shadow_rays: 0, light_samples: 0 };
         assert!(read(Expected::start(), &Response::Probed(vec![vec![path]])).is_err());
     }
 }

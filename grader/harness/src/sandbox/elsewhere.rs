@@ -1,4 +1,4 @@
-//! Systems that have no sandbox for us: macOS, Windows and others.
+//! Systems without a sandbox: macOS, Windows and others.
 
 use std::path::Path;
 use std::process::{Child, Command};
@@ -10,22 +10,22 @@ use super::Limits;
 use super::process::Profile;
 use verdict::error::Result;
 
-/// What this machine can do to confine a submission: nothing.
+/// Sandbox support of this machine: none.
 #[derive(Clone, Debug, Default)]
 pub struct Machine;
 
 impl Machine {
-    /// The machine that this runs on.
+    /// This machine.
     pub fn here() -> &'static Self {
         &Self
     }
 
-    /// The layers that are possible here.
+    /// Layers that are available: none.
     pub fn layers(&self) -> Layers {
         Layers::default()
     }
 
-    /// What could be done for a better level.
+    /// How to get a better level.
     pub fn advice(&self) -> Vec<String> {
         vec!["only Linux has a sandbox for submissions: grade files of others there".to_owned()]
     }
@@ -35,38 +35,38 @@ pub(super) fn confine(_: &mut Command, _: Profile<'_>, _: &Limits) -> Result<Lay
     Ok(Layers::default())
 }
 
-/// The processor time that a process has had, all threads together: not known here.
+/// Processor time of a process over all threads: unknown here.
 pub(crate) fn processor_time(_: &Child) -> Option<Duration> {
     None
 }
 
-/// These layers, without what the system denies of a process: it tells nothing here.
+/// Layers that the system confirms for a process: unknown here, so all of them.
 pub(crate) fn confirmed(_: &Child, set: Layers) -> Layers {
     set
 }
 
-/// How many processes the system has ended for want of memory: not known here.
+/// Number of processes that the system has ended for lack of memory: unknown here.
 pub(crate) fn out_of_memory_kills() -> Option<u64> {
     None
 }
 
-/// The user that a submission is compiled and run as: that of the grader, here.
+/// User that a submission is compiled and run as: here that of the grader.
 #[derive(Debug)]
 pub(crate) struct Account;
 
 impl Account {
-    /// Takes it.
+    /// Takes a user id.
     ///
     /// # Errors
-    /// None here.
+    /// Never.
     pub(crate) fn take() -> Result<Self> {
         Ok(Self)
     }
 
-    /// Gives it a folder and its files: they are its own, here.
+    /// Gives a folder and its files to the user, who owns them already here.
     ///
     /// # Errors
-    /// None here.
+    /// Never.
     pub(crate) fn own(&self, _: &Path) -> Result<()> {
         Ok(())
     }

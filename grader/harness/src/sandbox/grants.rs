@@ -1,21 +1,21 @@
-//! What a compiler needs: which files it may read, and which programs it may start.
+//! Files that the compiler may read and programs that it may start.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// Files and folders, as they are named without symbolic links.
+/// Files and folders, by paths without symbolic links.
 #[derive(Clone, Debug, Default)]
 pub struct Grants {
-    /// What may be read, folders with all that is in them.
+    /// Files, and folders with everything in them, that may be read.
     pub read: BTreeSet<PathBuf>,
-    /// Programs that may be started, likewise.
+    /// Programs that may be started, and folders of programs.
     pub execute: BTreeSet<PathBuf>,
 }
 
 impl Grants {
-    /// What rustc needs to compile and link a program: its own files, those of the C compiler that it has link, and
-    /// the folders of the libraries that the submission is linked against.
+    /// Whatever rustc needs to compile and link a program: its own files, those of the C compiler that links, and the
+    /// folders of the libraries that the submission is linked against.
     pub(crate) fn of_toolchain(rustc: &Path, sysroot: &Path, libraries: &[&Path]) -> Self {
         let mut grants = Self::default();
         grants.execute(rustc);
@@ -53,13 +53,13 @@ impl Grants {
         self.read.extend(path.canonicalize());
     }
 
-    /// Programs are read, too: they may be scripts.
+    /// Adds programs. They may be read, too: some are scripts.
     fn execute(&mut self, path: &Path) {
         self.read(path);
         self.execute.extend(path.canonicalize());
     }
 
-    /// The folder that a file is in, as it is named, and the one where it really is.
+    /// Folders of a file: that of its path, and that of the file itself if the path is a symbolic link.
     fn read_folder_of(&mut self, file: &Path) {
         let real = file.canonicalize().ok();
         for folder in [Some(file), real.as_deref()].into_iter().flatten().filter_map(Path::parent) {
@@ -71,31 +71,31 @@ impl Grants {
     }
 }
 
-/// The programs that load shared libraries, as this process has one: the kernel starts them before any other.
+/// Dynamic loaders, which the kernel starts before any other program; known from those of this process.
 pub(super) fn loaders() -> BTreeSet<PathBuf> {
     let is_loader =
         |path: &PathBuf| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("ld-"));
     mapped().into_iter().filter(is_loader).collect()
 }
 
-/// The files that are mapped into this process: among them its loader and its shared libraries.
+/// Files mapped into this process, among them its loader and its shared libraries.
 pub(super) fn mapped() -> BTreeSet<PathBuf> {
     let maps = std::fs::read_to_string("/proc/self/maps").unwrap_or_default();
     maps.lines().filter_map(|line| line.find('/').map(|start| PathBuf::from(&line[start..]))).collect()
 }
 
-/// The C compiler that rustc has link.
+/// Path of the C compiler that rustc links with.
 pub fn linker() -> Option<PathBuf> {
     find(Path::new("cc"))
 }
 
-/// The first program of that name in the search path.
+/// First program of that name in the search path.
 fn find(name: &Path) -> Option<PathBuf> {
     let path = std::env::var_os("PATH")?;
     std::env::split_paths(&path).map(|folder| folder.join(name)).find(|file| file.is_file())
 }
 
-/// What a C compiler says about one of its files.
+/// Asks a C compiler for the path of one of its files.
 pub(super) fn ask(compiler: &Path, question: &str) -> Option<PathBuf> {
     let output = Command::new(compiler)
         .arg(question)

@@ -1,27 +1,26 @@
-//! How much a submission may use up.
+//! Limits of time and memory for a submission.
 
 use std::time::Duration;
 
 use super::Level;
 
-/// What compiling and running a submission may take.
+/// Limits for compiling and running a submission.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Time for rustc, by the clock on the wall. Constants can be computed at compile time for as long as one likes.
+    /// Wall time of rustc. It must be limited, since constants can be computed for any length of time.
     pub compile_time: Duration,
-    /// Address space of rustc and of the linker, each, in bytes. With too little, rustc's messages mislead.
+    /// Address space of rustc and of the linker each, in bytes. With too little, rustc's messages are misleading.
     pub compile_memory: u64,
-    /// Time for one job, by the clock on the wall: a million samples at most, for which a correct submission needs less
-    /// than a second. A sixth of it is for the first part of a job that is tried before. All jobs of a check together
-    /// have no more.
+    /// Wall time of one job, and of all jobs of a check together. A job has at most a million samples, for which a correct
+    /// submission needs less than a second. The first part of a job gets a sixth of it.
     pub job_time: Duration,
-    /// Address space of the host, in bytes, beside what its threads reserve without using it.
+    /// Address space of the host in bytes, not counting what its threads reserve without using it.
     pub job_memory: u64,
-    /// False only to measure what the sandbox costs: files and system calls are not locked away then.
+    /// False only to measure the cost of the sandbox: then files and system calls are not restricted.
     pub sandbox: bool,
-    /// False only to test the sandbox alone: neither source nor program are inspected then.
+    /// False only to test the sandbox by itself: then neither source nor program are inspected.
     pub inspect: bool,
-    /// The worst sandbox in which anything of a submission is compiled or run.
+    /// Weakest sandbox in which a submission is compiled or run.
     pub min_level: Level,
 }
 

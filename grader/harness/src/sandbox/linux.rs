@@ -1,4 +1,4 @@
-//! Linux: what of the sandbox this machine has, and how a process gets it before its program starts.
+//! The sandbox on Linux: which layers this machine supports, and how a process is confined before its program starts.
 
 mod account;
 mod calls;
@@ -30,7 +30,7 @@ pub(crate) use clock::processor_time;
 pub(crate) use loading::confirmed;
 pub(crate) use memory::out_of_memory_kills;
 
-/// What this machine can do to confine a submission, as it was found by trying.
+/// Sandbox support of this machine, found by trying.
 #[derive(Clone, Debug)]
 pub struct Machine {
     landlock: u32,
@@ -39,13 +39,13 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// The machine that this runs on. It is looked at once.
+    /// This machine. It is probed once.
     pub fn here() -> &'static Self {
         static HERE: OnceLock<Machine> = OnceLock::new();
         HERE.get_or_init(Self::measure)
     }
 
-    /// Confines a thread and lets it try what must not work: nothing of it reaches the other threads.
+    /// Confines a thread and lets it try what must fail. Other threads are not affected.
     fn measure() -> Self {
         let nothing = Self { landlock: 0, seccomp: false, user: User::here() };
         let user = nothing.user.clone();
@@ -61,7 +61,7 @@ impl Machine {
         confined.join().unwrap_or(nothing)
     }
 
-    /// The layers that are possible here.
+    /// Layers that are available.
     pub fn layers(&self) -> Layers {
         Layers {
             landlock: self.landlock,
@@ -71,7 +71,7 @@ impl Machine {
         }
     }
 
-    /// What could be done for a better level.
+    /// How to get a better level.
     pub fn advice(&self) -> Vec<String> {
         let mut advice = Vec::new();
         if self.landlock == 0 {
@@ -92,18 +92,18 @@ impl Machine {
     }
 }
 
-/// All that a process does to itself between its start and that of its program.
+/// Everything that a process does to itself between fork and exec.
 #[derive(Default)]
 struct Confinement {
     limits: Vec<(Resource, Rlimit)>,
     user: Option<Switch>,
     landlock: Option<RulesetCreated>,
-    /// To be applied in this order.
+    /// seccomp filters, in the order in which they are applied.
     seccomp: Vec<BpfProgram>,
 }
 
 impl Confinement {
-    /// Called in the new process: it must not allocate, nor wait for a lock.
+    /// Runs in the new process: it must not allocate or wait for a lock.
     fn enforce(&mut self) -> std::io::Result<()> {
         close_others_on_exec();
         for &(resource, limit) in &self.limits {
@@ -181,7 +181,7 @@ fn confinement(profile: Profile<'_>, limits: &Limits) -> Result<Confinement> {
     Ok(confinement)
 }
 
-/// The limits of the kernel's that follow from ours.
+/// The kernel's resource limits that follow from [`Limits`].
 fn limits_of(profile: Profile<'_>, limits: &Limits) -> Vec<(Resource, Rlimit)> {
     let (memory, time, file, files) = match profile {
         Profile::Compiler { .. } => {
@@ -204,14 +204,14 @@ fn limits_of(profile: Profile<'_>, limits: &Limits) -> Vec<(Resource, Rlimit)> {
     .into()
 }
 
-/// The largest file that a compiler may write, in bytes.
+/// Maximum size in bytes of a file that a compiler may write.
 const LARGEST_FILE: u64 = 256 << 20;
 
-/// What the C library reserves for each thread without using it: an arena (which is aligned by reserving twice as
-/// much) and a stack, in bytes.
+/// Bytes that the C library reserves for each thread without using them: an arena (reserved twice for alignment) and a
+/// stack.
 const RESERVED: u64 = 160 << 20;
 
-/// Landlock's rules for a compiler.
+/// Landlock rules for a compiler.
 fn rules(grants: &Grants, folder: &Path) -> std::result::Result<RulesetCreated, Box<dyn std::error::Error>> {
     let (mut ruleset, _) = files::ruleset().ok_or("the kernel has none any more")?;
     let read = AccessFs::ReadFile | AccessFs::ReadDir;
@@ -233,7 +233,7 @@ fn rules(grants: &Grants, folder: &Path) -> std::result::Result<RulesetCreated, 
     Ok(ruleset.add_rule(PathBeneath::new(PathFd::new(folder)?, own))?)
 }
 
-/// Leaves the new program only its three standard streams, whatever this process was started with.
+/// Leaves the new program only its three standard streams.
 fn close_others_on_exec() {
     // SAFETY: it touches no memory. Old kernels do not know the call; everything that the grader itself opens is
     // closed in any case.

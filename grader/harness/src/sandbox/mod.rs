@@ -1,14 +1,14 @@
-//! Keeping what a student wrote from everything but its own points.
+//! The sandbox of a submission: its code can affect nothing but its own points.
 //!
-//! Two things run on behalf of a submission, and each gets a sandbox of its own: **rustc**, since `include_str!` and its
-//! kin read files at compile time, and the **host**, which runs what was compiled. The compiler may read the
-//! toolchain, the framework and its own folder, write there, and start the linker. The host may load its program, and
-//! nothing else: it is locked in between fork and exec, and tightens that itself ([`host::confine`]). Both get limits of
-//! time and memory, an empty environment, and a user id that no other submission has when the grader runs as root, and are
-//! ended together with everything that they have started.
+//! Two processes run for a submission, each in a sandbox of its own: **rustc**, since macros such as `include_str!` read
+//! files at compile time, and the **host**, which runs the compiled code. The compiler may read the toolchain, the
+//! framework and its own folder, write to that folder, and start the linker. The host may only load its program: it is
+//! confined between fork and exec, and then confines itself further ([`host::confine`]). Both have limits of time and
+//! memory, an empty environment, and, if the grader runs as root, a user id that no other submission has. They are ended
+//! together with all processes that they have started.
 //!
-//! What of it a machine really does is tried out, never assumed, and every report has it as a [`Level`]. What is defended
-//! how, and what is not: `grader/SANDBOX.md`.
+//! What a machine supports is tried, never assumed, and every report states it as a [`Level`]. The threat model is in
+//! `grader/SANDBOX.md`.
 
 mod grants;
 mod limits;

@@ -1,4 +1,4 @@
-//! Processes that are confined from the outside, and ended with all that they have started.
+//! Confined processes, which are ended together with all processes that they have started.
 
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus};
@@ -8,7 +8,7 @@ use verdict::sandbox::Layers;
 use super::{Account, Grants, Limits, system};
 use verdict::error::{Error, Result};
 
-/// What a process is for.
+/// Purpose of a process, which decides how it is confined.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(
     not(target_os = "linux"),
@@ -17,37 +17,37 @@ use verdict::error::{Error, Result};
 pub(crate) enum Profile<'a> {
     /// rustc and the linker.
     Compiler {
-        /// What they may read and start.
+        /// Files that they may read and programs that they may start.
         grants: &'a Grants,
         /// The only folder that they may write to.
         folder: &'a Path,
-        /// False where they cannot work at all once files are locked away.
+        /// False where they fail if file access is restricted.
         locked: bool,
-        /// Who runs them, and owns the folder.
+        /// User that runs them and owns the folder.
         account: &'a Account,
     },
-    /// A submission on so many threads, which may load its program and do nothing else with files or other processes.
+    /// A submission, which may load its program and do nothing else with files or other processes.
     Host {
-        /// The program.
+        /// Path of the program.
         program: &'a Path,
-        /// Who runs it.
+        /// User that runs it.
         account: &'a Account,
-        /// Threads that render.
+        /// Number of threads that render.
         threads: usize,
     },
 }
 
-/// Has a command start confined and at the head of a process group, and tells how it will be confined.
+/// Prepares a command to start confined and as the leader of a process group, and returns its sandbox layers.
 ///
 /// # Errors
-/// What should work on this machine does not.
+/// If something fails that this machine supports.
 pub(crate) fn prepare(command: &mut Command, profile: Profile<'_>, limits: &Limits) -> Result<Layers> {
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(command, 0);
     system::confine(command, profile, limits)
 }
 
-/// Ends a process that was started so, and all that it has started. It is still to be waited for.
+/// Kills a process prepared by [`prepare`], and its process group. It must still be waited for.
 pub(crate) fn end(child: &mut Child) {
     // Once waited for, its number may be another's: the library's own `kill` knows that.
     #[cfg(unix)]
@@ -60,12 +60,11 @@ pub(crate) fn end(child: &mut Child) {
     let _ = child.kill();
 }
 
-/// An error if a process was ended because the machine had no memory left. That is believed on the kernel's evidence
-/// only: `before` is [`out_of_memory_kills`](system::out_of_memory_kills) as it was before the process started. Any other
-/// end is the process's own matter.
+/// Finds out whether a process was killed because the machine had no memory left. Only the kernel's counter is trusted:
+/// `before` is the value of [`out_of_memory_kills`](system::out_of_memory_kills) before the process started.
 ///
 /// # Errors
-/// If it is so.
+/// If the machine had no memory left.
 pub(crate) fn blame_machine(status: ExitStatus, before: Option<u64>, who: &str) -> Result<()> {
     #[cfg(unix)]
     let killed = std::os::unix::process::ExitStatusExt::signal(&status)

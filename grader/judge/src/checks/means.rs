@@ -62,11 +62,8 @@ impl<'a> Picture<'a> {
         anomalies: &mut Anomalies,
     ) -> Result<Judgement, JobError> {
         let mut process = context.start()?;
-        let scenes = self
-            .scenes
-            .iter()
-            .map(|scene| Ok(process.load(scene)?))
-            .collect::<Result<Vec<u32>, JobError>>()?;
+        let scenes =
+            self.scenes.iter().map(|scene| process.load(scene)).collect::<Result<Vec<u32>, JobError>>()?;
         self.judge_in(&mut process, &scenes, anomalies)
     }
 

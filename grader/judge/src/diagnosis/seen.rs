@@ -23,7 +23,7 @@ pub(super) fn seen(
     vector: &Vector,
     candidate: &Candidate<'_>,
 ) -> Option<SeenIn> {
-    let Some(signature) = catalogue.signatures.get(candidate.variant) else { return None };
+    let signature = catalogue.signatures.get(candidate.variant)?;
     let of_technique = |check: &&CheckResult| candidate.technique.is_none_or(|it| check.id.technique == it);
     let telling = |check: &CheckResult| -> Option<f64> {
         let (seen, expected) = (vector.0.get(&check.id)?, signature.0.get(&check.id)?);

@@ -1,4 +1,4 @@
-//! What the page of a class takes from the records of its submissions: little of each, so that a large class fits.
+//! Data of the class's page from the records of submissions: little of each, so that a large class fits into memory.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -7,50 +7,50 @@ use crate::class::gradebook::{Row, State};
 use crate::class::record::{Record, ResultDir};
 use verdict::check::Verdict;
 
-/// What is kept of one submission.
+/// Data of one submission.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Digest {
-    /// How long compiling and running took, in seconds.
+    /// Seconds for compiling and running.
     pub(super) seconds: Option<f64>,
-    /// Time for a given noise; see [`Record::work`].
+    /// Work for a given noise; see [`Record::work`].
     pub(super) work: Option<f64>,
-    /// Its place in [`Digests::alike`]; none if it passes everything.
+    /// Index in [`Digests::alike`]; none if it passes everything.
     pub(super) group: Option<usize>,
-    /// True if its pages are there.
+    /// True if its pages exist.
     pub(super) pages: bool,
 }
 
-/// How often a check was run and passed.
+/// How often a check was run, and how often it passed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Rate {
     pub(super) run: usize,
     pub(super) passed: usize,
 }
 
-/// Submissions that share their likeliest mistake.
+/// Submissions with the same most likely mistake.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Alike {
-    /// What they share.
+    /// The mistake, or the checks that failed.
     pub(super) what: String,
-    /// True if that is a likely cause, false if it is only the set of checks that failed.
+    /// True if it is a likely cause, false if it is the set of failed checks.
     pub(super) is_cause: bool,
-    /// Their rows.
+    /// Indices of their rows.
     pub(super) rows: Vec<usize>,
 }
 
-/// What is kept of a class.
+/// Data of a class.
 #[derive(Debug, Default)]
 pub(super) struct Digests {
-    /// In the order of the rows.
+    /// Submissions in the order of the rows.
     pub(super) of_rows: Vec<Digest>,
-    /// By task and check.
+    /// Pass rates, by task and check.
     pub(super) checks: BTreeMap<String, Rate>,
-    /// The largest group first.
+    /// Groups of submissions with the same mistake, the largest first.
     pub(super) alike: Vec<Alike>,
 }
 
 impl Digests {
-    /// Reads one record after the other.
+    /// Reads all records, one at a time.
     pub(super) fn read(out: &Path, rows: &[Row]) -> Self {
         let mut digests = Self::default();
         let mut groups: BTreeMap<(bool, String), Vec<usize>> = BTreeMap::new();
@@ -85,7 +85,7 @@ impl Digests {
     }
 }
 
-/// By what a submission is grouped: its likeliest mistake, else the checks that it does not pass; `None` if it passes all.
+/// Key of the group of a submission: its most likely cause, or else its failed checks; `None` if it passes everything.
 fn shared(record: &Record) -> Option<(bool, String)> {
     if let Some(mistake) = &record.mistake {
         return Some((true, mistake.clone()));

@@ -1,9 +1,9 @@
-//! The class as one self-contained page, for staff: a table that can be sorted, which task was hard, who made the same
-//! mistake, what is still to be marked.
+//! The page of a class, one self-contained file for staff: a sortable table, hard tasks, shared mistakes, and submissions
+//! that still need a mark.
 //!
-//! Records are read one after the other, and thumbnails go straight to the file: of a submission little more than its row is
-//! in memory. Everything that others have written is escaped by the template; names of folders are such that they need
-//! no more than that in a link (see [`crate::class::Member::key`]).
+//! Records are read one at a time and thumbnails are copied to the file, so that little more than its row is in memory of
+//! each submission. The template escapes all texts of other people; names of folders need no more than that in links (see
+//! [`crate::class::Member::key`]).
 
 mod digest;
 mod sections;
@@ -26,17 +26,17 @@ use verdict::rubric::Rubric;
 
 const SCRIPT: &str = include_str!("class.js");
 
-/// What the page is made of.
+/// Content of the page.
 pub struct ClassPage<'a> {
-    /// What was asked for.
+    /// Rubric of the assignment.
     pub rubric: &'a Rubric,
-    /// A row for each member.
+    /// One row per member.
     pub rows: &'a [Row],
-    /// Scores that are not what they were.
+    /// Changes of scores since the last run.
     pub changes: &'a [String],
-    /// How many groups of submissions are alike.
+    /// Number of groups of similar submissions.
     pub similar: usize,
-    /// The folder of the results.
+    /// Result folder.
     pub out: &'a Path,
 }
 
@@ -70,7 +70,7 @@ impl ClassPage<'_> {
         file.write_all(document::end(SCRIPT).as_bytes())
     }
 
-    /// A small picture of each submission, those with the fewest points first.
+    /// Writes a thumbnail of each submission, those with the fewest points first.
     fn wall(&self, digests: &Digests, file: &mut BufWriter<&std::fs::File>) -> std::io::Result<()> {
         let mut order: Vec<usize> = (0..self.rows.len()).collect();
         order.sort_by(|&a, &b| {

@@ -1,4 +1,4 @@
-//! What the page of a class says beside its table.
+//! The sections of the class's page besides its table.
 
 use maud::{Markup, PreEscaped, html};
 
@@ -7,11 +7,12 @@ use super::digest::{Digests, Rate};
 use super::table::{link, name};
 use crate::class::gradebook::{Row, State};
 use present::page::plots::{Bars, bars};
+use present::words;
 
-/// How many submissions stand in a list of the slowest.
+/// Length of the lists of the slowest and of the most efficient submissions.
 const LISTED: usize = 5;
 
-/// Bars of the distribution of points.
+/// Number of bars in the distribution of points.
 const BARS: usize = 14;
 
 pub(super) fn header(page: &ClassPage<'_>) -> Markup {
@@ -25,32 +26,32 @@ pub(super) fn header(page: &ClassPage<'_>) -> Markup {
     html! {
         header {
             h1 { (page.rubric.title) }
-            p.soft { "assignment " (page.rubric.assignment) " · for staff only: it names everybody" }
+            p.soft { "assignment " (page.rubric.assignment) " · for staff only" }
             p { @for (index, (state, words)) in parts.into_iter().filter(|(state, _)| count(*state) > 0).enumerate() {
                 @if index > 0 { ", " } b { (count(state)) } " " (words)
             } }
-            @if page.similar > 0 { p { "Submissions that are the same or nearly so: " (page.similar) " groups, in "
+            @if page.similar > 0 { p { "Submissions that are the same or nearly so: " (words::count(page.similar, "group")) ", in "
                 a href="similar.txt" { "similar.txt" } "." } }
         }
     }
 }
 
-/// Points that a task gave on average, and how they are distributed.
+/// Average points of each task, and the distribution of points.
 pub(super) fn points(page: &ClassPage<'_>) -> Markup {
     let automatic = |row: &Row| -> Option<f64> {
         let tasks = page.rubric.tasks.iter().filter(|task| !task.manual);
         tasks.map(|task| row.tasks.get(&task.id).copied().flatten()).sum()
     };
-    let most: f64 = page.rubric.tasks.iter().filter(|task| !task.manual).map(|task| task.points).sum();
+    let max: f64 = page.rubric.tasks.iter().filter(|task| !task.manual).map(|task| task.points).sum();
     let points: Vec<f64> = page.rows.iter().filter_map(automatic).collect();
     let mut counts = [0; BARS];
     for value in &points {
-        counts[((value / most * BARS as f64) as usize).min(BARS - 1)] += 1;
+        counts[((value / max * BARS as f64) as usize).min(BARS - 1)] += 1;
     }
     let plot = bars(&Bars {
         label: "distribution of points",
-        axis: "points of the tasks that are graded automatically",
-        range: (0.0, most),
+        axis: "points of tasks that are graded automatically",
+        range: (0.0, max),
         counts: &counts,
         expected: None,
     });
@@ -73,12 +74,12 @@ pub(super) fn points(page: &ClassPage<'_>) -> Markup {
                         }
                     }
                 } }
-            } } p.soft { "Of " (points.len()) " submissions with points; raw, before anything is taken off for being late." } }
+            } } p.soft { "Of " (words::count(points.len(), "submission")) " with points; raw, before any penalty for being late." } }
         }
     }
 }
 
-/// The checks that the fewest pass.
+/// Checks with the lowest pass rates.
 pub(super) fn hard(page: &ClassPage<'_>, digests: &Digests) -> Markup {
     let mut checks: Vec<(&str, Rate)> =
         digests.checks.iter().map(|(check, rate)| (check.as_str(), *rate)).collect();
@@ -88,9 +89,9 @@ pub(super) fn hard(page: &ClassPage<'_>, digests: &Digests) -> Markup {
         |task: &str| page.rubric.tasks.iter().find(|other| other.id == task).map(|task| task.title.as_str());
     html! {
         @if !checks.is_empty() {
-            h2 { "What was hard" }
+            h2 { "Checks with the lowest pass rates" }
             details open {
-                summary { "how many passed each of " (checks.len()) " checks" }
+                summary { "pass rates of " (words::count(checks.len(), "check")) }
                 div.scroll { table.sortable {
                     thead { tr {
                         th scope="col" aria-sort="none" { button type="button" { "task" } }
@@ -112,12 +113,12 @@ pub(super) fn hard(page: &ClassPage<'_>, digests: &Digests) -> Markup {
     }
 }
 
-/// Who made the same mistake.
+/// Groups of submissions with the same mistake.
 pub(super) fn alike(page: &ClassPage<'_>, digests: &Digests) -> Markup {
     html! {
         @if !digests.alike.is_empty() {
             h2 { "The same mistake" }
-            p.soft { "By the likeliest cause; where none is known, by the checks that did not pass." }
+            p.soft { "By the most likely cause; if none is known, by the failed checks." }
             div.scroll { table {
                 thead { tr { th.number { "submissions" } th { "what they share" } th { "who" } } }
                 tbody { @for group in &digests.alike { tr {
@@ -133,7 +134,7 @@ pub(super) fn alike(page: &ClassPage<'_>, digests: &Digests) -> Markup {
     }
 }
 
-/// A long list of checks, folded.
+/// A list of checks, folded if it is long.
 fn long(what: &str) -> Markup {
     let parts: Vec<&str> = what.split(", ").collect();
     html! {
@@ -147,7 +148,7 @@ fn who(row: &Row, pages: bool) -> Markup {
     html! { @if pages { a href=(link(row, "report-tutor.html")) { (row.key) } } @else { (row.key) } }
 }
 
-/// The slowest, and those that need least time for a given noise.
+/// The slowest submissions, and the most efficient ones.
 pub(super) fn speed(page: &ClassPage<'_>, digests: &Digests) -> Markup {
     let sorted = |value: &dyn Fn(usize) -> Option<f64>| {
         let mut list: Vec<(usize, f64)> =
@@ -171,22 +172,22 @@ pub(super) fn speed(page: &ClassPage<'_>, digests: &Digests) -> Markup {
                 (list("The most efficient", work.iter().take(LISTED).map(|&(index, work)| (index, format!("{:.2} times the median", median / work))).collect()))
             }
             @if !work.is_empty() { p.soft { "Efficiency is 1 / (variance × time) of multiple importance sampling, in the scenes of the check "
-                code { "efficiency" } ". Several submissions were graded at once, so that times are rough: "
-                code { "cargo grader converge" } " measures exactly." } }
+                code { "efficiency" } ". Several submissions were graded at once, so times are approximate: "
+                code { "cargo grader converge" } " measures accurately." } }
         }
     }
 }
 
-/// What a person has still to do.
+/// Submissions that still need a mark.
 pub(super) fn to_mark(page: &ClassPage<'_>) -> Markup {
     html! {
         @for task in page.rubric.tasks.iter().filter(|task| task.manual) {
             @let missing: Vec<&Row> = page.rows.iter()
                 .filter(|row| row.state == State::Graded && row.tasks.get(&task.id).copied().flatten().is_none()).collect();
             h2 { "To be marked: " (task.id) " " (task.title) }
-            @if missing.is_empty() { p { "nothing is left" } } @else {
-                p { (missing.len()) " submissions have no mark yet. "
-                    code { "cargo grader mark HAND-IN " (task.id) " POINTS --comment=\"…\" --out=" (page.out.display()) }
+            @if missing.is_empty() { p { "all done" } } @else {
+                p { (words::count(missing.len(), "submission")) " without a mark. "
+                    code { "cargo grader mark SUBMISSION " (task.id) " POINTS --comment=\"…\" --out=" (page.out.display()) }
                     ", then " code { "--resume" } "." }
                 details {
                     summary { "who" }
@@ -201,7 +202,7 @@ pub(super) fn to_mark(page: &ClassPage<'_>) -> Markup {
     }
 }
 
-/// What grading again has changed.
+/// Changes of scores since the last run.
 pub(super) fn changes(page: &ClassPage<'_>) -> Markup {
     html! {
         @if !page.changes.is_empty() {

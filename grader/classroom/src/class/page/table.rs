@@ -7,7 +7,7 @@ use super::digest::{Digest, Digests};
 use crate::class::gradebook::{Row, State};
 use crate::policy::Lateness;
 
-/// One row for each member, with buttons in the head that sort. Columns in which nobody has anything are left out.
+/// One row per member, with buttons in the header that sort. Empty columns are left out.
 pub(super) fn table(page: &ClassPage<'_>, digests: &Digests) -> Markup {
     let tasks = &page.rubric.tasks;
     let columns = Columns {
@@ -33,7 +33,7 @@ pub(super) fn table(page: &ClassPage<'_>, digests: &Digests) -> Markup {
     }
 }
 
-/// Columns that are there only if somebody has something in them.
+/// Columns that may be empty: true if they are shown.
 #[derive(Clone, Copy)]
 struct Columns {
     names: bool,
@@ -70,7 +70,7 @@ fn line(page: &ClassPage<'_>, columns: Columns, row: &Row, digests: &Digests, di
     }
 }
 
-/// By how many seconds it was late, if it was.
+/// Seconds after the deadline; none if it was in time.
 fn late_by(row: &Row) -> Option<f64> {
     row.lateness.as_ref()?.late_by.map(|seconds| seconds as f64)
 }
@@ -84,17 +84,17 @@ fn shown(points: Option<f64>) -> String {
     points.map_or_else(|| "–".to_owned(), |points| points.to_string())
 }
 
-/// The points that count.
+/// Points that count.
 pub(super) fn points_of(row: &Row) -> String {
     shown(row.points)
 }
 
-/// First and last name, if they are known.
+/// First and last name; empty if unknown.
 pub(super) fn name(row: &Row) -> String {
     format!("{} {}", row.first_name, row.last_name).trim().to_owned()
 }
 
-/// Why points are missing, where there is one reason for all of it.
+/// Main reason why points are missing, and notes.
 fn why(row: &Row) -> Markup {
     html! {
         @match (&row.reason, row.state) {
@@ -107,7 +107,7 @@ fn why(row: &Row) -> Markup {
     }
 }
 
-/// A file of a row's results, as seen from the page.
+/// Link to a file of a row's results, relative to the page.
 pub(super) fn link(row: &Row, file: &str) -> String {
     format!("submissions/{}/{file}", row.key)
 }

@@ -101,7 +101,7 @@ fn the_page_says_what_was_hard_who_is_alike_and_what_is_to_be_marked() {
         "href=\"submissions/ann/report-tutor.html\"",
         "1 of 4",
         "3 of 4",
-        "4 submissions have no mark yet",
+        "4 submissions without a mark",
         "ann: 1 3 → 5",
         "similar.txt",
         "<svg class=\"plot\"",

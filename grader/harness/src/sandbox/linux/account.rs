@@ -1,4 +1,4 @@
-//! The user id of one submission, which no other one has while it is in use.
+//! The user id of one submission, which no other submission has at the same time.
 
 use std::fs::{DirBuilder, File, OpenOptions};
 use std::os::unix::fs::{DirBuilderExt, MetadataExt, chown};
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::user::{self, User};
 use verdict::error::{Error, Result};
 
-/// The user that one submission is compiled and run as. Nobody else has its id as long as this lives.
+/// User that one submission is compiled and run as. No other submission has its id as long as this lives.
 #[derive(Debug)]
 pub(crate) struct Account {
     /// `None` where submissions run as the same user as the grader.
@@ -16,7 +16,7 @@ pub(crate) struct Account {
 }
 
 impl Account {
-    /// Takes an id that no grader of this machine uses; the grader's own, if it is not root.
+    /// Takes an id that no grader of this machine uses; the grader's own if it is not root.
     ///
     /// # Errors
     /// If the ids cannot be locked, or if all are in use.
@@ -41,15 +41,15 @@ impl Account {
         Err(Error::Harness(format!("all {} user ids for submissions are in use", user::IDS)))
     }
 
-    /// Its user id, if it is not the grader's.
+    /// The user id; `None` if it is the grader's.
     pub(super) fn id(&self) -> Option<u32> {
         self.id
     }
 
-    /// Gives it a folder and its files.
+    /// Makes the user the owner of a folder and its files.
     ///
     /// # Errors
-    /// Whatever the file system says.
+    /// If the owner cannot be changed.
     pub(crate) fn own(&self, folder: &Path) -> Result<()> {
         let Some(id) = self.id else { return Ok(()) };
         let trouble = |error| Error::Harness(format!("{}: {error}", folder.display()));
@@ -61,7 +61,7 @@ impl Account {
     }
 }
 
-/// The folder of the locks, which only root can write to.
+/// Folder of the locks, which only root can write to.
 fn locks() -> Result<PathBuf> {
     let is_root_s = |folder: &Path| {
         std::fs::symlink_metadata(folder)

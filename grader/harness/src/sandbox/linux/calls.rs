@@ -3,9 +3,8 @@
 use host::confine::seccomp::denying;
 use seccompiler::BpfProgram;
 
-/// A filter that refuses them. Starting processes must stay, and pairs of sockets: rustc starts the linker by them. So
-/// must changing the mode of a file that is open:
-/// the linker makes its output executable.
+/// A filter that refuses them. Starting processes and pairs of sockets stay allowed, since rustc starts the linker, and
+/// so does changing the mode of an open file, since the linker makes its output executable.
 pub(super) fn compiler_filter() -> Option<BpfProgram> {
     use libc::*;
 

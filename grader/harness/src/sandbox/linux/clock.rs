@@ -1,9 +1,9 @@
-//! How long a process has been at work.
+//! Processor time of a process.
 
 use std::process::Child;
 use std::time::Duration;
 
-/// The processor time that a process has had, all threads together; `None` if it is gone.
+/// Processor time of a process over all threads; `None` if it is gone.
 pub(crate) fn processor_time(child: &Child) -> Option<Duration> {
     let pid = libc::pid_t::try_from(child.id()).ok()?;
     let mut clock = 0;

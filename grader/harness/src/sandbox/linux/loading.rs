@@ -1,4 +1,4 @@
-//! What it takes to load a submission's program, and what of a running one the kernel confirms.
+//! Files needed to load a submission's program, and the layers that the kernel confirms for a running one.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use verdict::sandbox::Layers;
 
 use super::super::grants;
 
-/// Landlock's rules for a host: its own program, the loader and the libraries that every Rust program needs.
+/// Landlock rules for a host: its own program, the loader and the libraries that every Rust program needs.
 pub(super) fn rules(program: &Path) -> Result<RulesetCreated, Box<dyn std::error::Error>> {
     let (mut ruleset, _) = files::ruleset().ok_or("the kernel has none any more")?;
     let read = AccessFs::ReadFile;
@@ -26,14 +26,14 @@ pub(super) fn rules(program: &Path) -> Result<RulesetCreated, Box<dyn std::error
     Ok(ruleset)
 }
 
-/// Files that a program is loaded from, besides itself.
+/// Files needed to load a program, besides the program itself.
 struct Needed {
     loaders: BTreeSet<PathBuf>,
-    /// Shared libraries, the list by which the loader finds them, and `/dev/null`.
+    /// Shared libraries, the loader's cache of their paths, and `/dev/null`.
     libraries: BTreeSet<PathBuf>,
 }
 
-/// Libraries that programs of Rust are linked against; those after the third are parts of the first in newer systems.
+/// Libraries that Rust programs are linked against; on newer systems those after the third are part of the first.
 const LIBRARIES: [&str; 6] =
     ["libc.so.6", "libm.so.6", "libgcc_s.so.1", "libpthread.so.0", "libdl.so.2", "librt.so.1"];
 
@@ -59,8 +59,8 @@ fn needed() -> &'static Needed {
     })
 }
 
-/// These layers, without what the kernel denies of a process. To be called when its program has started, and before it is
-/// asked for anything.
+/// The layers of these that the kernel confirms for a process. To be called after its program has started and before
+/// its first job.
 pub(crate) fn confirmed(child: &Child, set: Layers) -> Layers {
     let Ok(status) = std::fs::read_to_string(format!("/proc/{}/status", child.id())) else { return set };
     let field = |name: &str| {

@@ -1,6 +1,6 @@
-//! Whether the kernel has ended processes because the machine, or the grader's part of it, had no memory left.
+//! The kernel's counter of processes that it killed for lack of memory.
 
-/// How many processes the kernel has ended so; `None` where it does not tell.
+/// Number of out-of-memory kills of this machine or control group; `None` where the kernel does not tell.
 pub(crate) fn out_of_memory_kills() -> Option<u64> {
     let read = |path: &str| std::fs::read_to_string(path).ok();
     // Of the whole machine. A container may not see it, and has its own.

@@ -1,4 +1,4 @@
-//! The other user that submissions run as when the grader is root.
+//! The unprivileged user that submissions run as when the grader is root.
 
 use std::os::unix::fs::MetadataExt;
 use std::path::Path;
@@ -14,13 +14,14 @@ use rustix::thread::{
 
 use super::super::Grants;
 
-/// How many ids there are for submissions: as many can be compiled or run at a time, on the whole machine.
+/// Number of ids for submissions: the maximum number that are compiled or run at a time on the whole machine.
 pub(super) const IDS: u32 = 1024;
 
-/// Where they may begin. Nobody gives away the first ones; a container that knows of few ids has the others.
+/// Possible first ids: the first is in a range that distributions do not assign, the others exist in containers with few
+/// ids.
 const FIRST_IDS: [u32; 2] = [0x7a00_0000, 64_000];
 
-/// The first id for submissions on this machine. A group has the same number as its user.
+/// First id for submissions on this machine. A group has the same number as its user.
 pub(super) fn first_id() -> u32 {
     static FIRST: OnceLock<u32> = OnceLock::new();
     *FIRST.get_or_init(|| {
@@ -30,7 +31,7 @@ pub(super) fn first_id() -> u32 {
     })
 }
 
-/// Whether one line of a map of ids (first inside, first outside, how many) has all those for submissions.
+/// True if one line of an id map (first inside, first outside, count) contains all ids for submissions.
 fn has_ids(map: &str, first: u32) -> bool {
     map.lines().any(|line| {
         let numbers: Vec<u64> = line.split_whitespace().filter_map(|number| number.parse().ok()).collect();
@@ -39,19 +40,19 @@ fn has_ids(map: &str, first: u32) -> bool {
     })
 }
 
-/// Who submissions run as.
+/// User that submissions run as.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum User {
-    /// The same user as the grader, who is not root.
+    /// The same user as the grader, which is not root.
     Same,
-    /// Another one.
+    /// Another user.
     Other,
-    /// Root, and why.
+    /// Root, with the reason why no other user is possible.
     Root(String),
 }
 
 impl User {
-    /// Who it would be here, by what can be seen.
+    /// The expected user on this machine.
     pub(super) fn here() -> Self {
         let folder = std::env::temp_dir();
         if !geteuid().is_root() {
@@ -66,7 +67,7 @@ impl User {
         }
     }
 
-    /// Becomes that user, in the calling thread alone; root if that is not possible.
+    /// Becomes that user in the calling thread only; stays root if that is not possible.
     pub(super) fn confirm(self) -> Self {
         if self != Self::Other {
             return self;
@@ -79,16 +80,16 @@ impl User {
     }
 }
 
-/// How to become the other user.
+/// Everything needed to become the other user.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Switch {
-    /// The id of the user, and of its group.
+    /// Id of the user and of its group.
     pub(super) id: u32,
-    /// The right of root's to read all files, if it is to be kept.
+    /// Root's capability to read all files, if it is to be kept.
     pub(super) reads_all: Option<CapabilitySet>,
 }
 
-/// Makes the calling thread the other user's, for good. It allocates nothing.
+/// Makes the calling thread run as the other user for good. Does not allocate.
 pub(super) fn switch_user(switch: Switch) -> std::io::Result<()> {
     let (user, group) = (Uid::from_raw(switch.id), Gid::from_raw(switch.id));
     if switch.reads_all.is_some() {
@@ -105,7 +106,7 @@ pub(super) fn switch_user(switch: Switch) -> std::io::Result<()> {
     Ok(())
 }
 
-/// The right of root's by which the other user could read all files; `None` if root has none to give here.
+/// Root's capability by which the other user can read all files; `None` if root does not have it here.
 pub(super) fn right_to_read_all() -> Option<CapabilitySet> {
     static RIGHT: OnceLock<Option<CapabilitySet>> = OnceLock::new();
     // A container's root has often only the second, which is more than is needed, and less than to stay root.
@@ -118,14 +119,14 @@ pub(super) fn right_to_read_all() -> Option<CapabilitySet> {
         .get_or_init(|| [CapabilitySet::DAC_READ_SEARCH, CapabilitySet::DAC_OVERRIDE].into_iter().find(works))
 }
 
-/// Whether any user can read these files, as far as their modes tell.
+/// True if the modes of these files let every user read them.
 pub(super) fn anyone_reads(grants: &Grants) -> bool {
     grants.read.iter().all(|path| {
         anyone_may(path, 0o004) && path.ancestors().skip(1).all(|folder| anyone_may(folder, 0o001))
     })
 }
 
-/// Whether the mode of a file gives others these rights.
+/// True if the mode of a file gives others these permissions.
 fn anyone_may(path: &Path, rights: u32) -> bool {
     std::fs::metadata(path).is_ok_and(|metadata| metadata.mode() & rights == rights)
 }

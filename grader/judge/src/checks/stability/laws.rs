@@ -65,7 +65,7 @@ fn render(
     let scene = changed(&room(), f64::from(larger).exp2(), DVec3::ZERO, (brighter as f32).exp2());
     let scene = process.load(&scene)?;
     let seeds = (0..BATCHES).map(|batch| batch_seed(asked.seed, batch)).collect();
-    Ok(process.render(&RenderJob::new(scene, asked.settings, SIZE, seeds, 1))?)
+    process.render(&RenderJob::new(scene, asked.settings, SIZE, seeds, 1))
 }
 
 /// A region with the relative difference of its mean.

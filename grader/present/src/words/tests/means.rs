@@ -53,7 +53,8 @@ fn means_that_are_right_or_too_noisy_say_how_well_they_are_known() {
 
 #[test]
 fn changed_and_random_scenes_say_which_one_decided() {
-    let change = || ChangeTest { change: SceneChange::Rotated, changes: 9, is_biased: true, test: mean_test() };
+    let change =
+        || ChangeTest { change: SceneChange::Rotated, changes: 9, is_biased: true, test: mean_test() };
     let variant = || VariantTest { scene: 1, scenes: 2, test: mean_test() };
     for (text, expected) in [
         (passes(Evidence::Metamorphic(change())), "9 changes of the scene have the effect they should have"),

@@ -1,0 +1,74 @@
+//! Checks answers of a process: whatever is not an answer to its job becomes a fault.
+
+use std::time::Duration;
+
+use host::protocol::{Rendered, Replayed, Response};
+use verdict::check::Fault;
+use verdict::text::clean;
+
+use crate::job::JobError;
+
+/// Turns the timeout of the first part of a job, which had this much time, into [`Fault::TooSlow`].
+pub(super) fn of_first_part(error: JobError, time: Duration) -> JobError {
+    match error {
+        JobError::Submission(Fault::Timeout(seconds)) if seconds == time.as_secs_f64() => {
+            Fault::TooSlow(seconds).into()
+        }
+        error => error,
+    }
+}
+
+pub(super) fn malformed(what: &str) -> JobError {
+    Fault::Malformed(what.to_owned()).into()
+}
+
+pub(super) fn unexpected(response: Response) -> JobError {
+    match response {
+        Response::Panicked { message } => Fault::Panic(clean(&message)).into(),
+        // The host rejects only what the grader has made sure that it does not send.
+        Response::Rejected { message } => malformed(&format!("it rejected a job: {}", short(&message))),
+        Response::Started => malformed("it started again"),
+        Response::SceneReady => malformed("it only said that a scene is ready"),
+        Response::Replayed(_) => malformed("it sent a path that was not requested"),
+        Response::Probed(_) => malformed("it sent paths that were not requested"),
+        Response::Rendered(_) => malformed("it sent a rendering that was not requested"),
+    }
+}
+
+/// A text of a process, made harmless and shortened for people.
+fn short(words: &str) -> String {
+    let words = clean(words).replace('\n', " ");
+    match words.char_indices().nth(LONGEST_WORDS) {
+        Some((end, _)) => format!("{} …", &words[..end]),
+        None => words,
+    }
+}
+
+/// Maximum number of characters of a text that no process should send.
+const LONGEST_WORDS: usize = 200;
+
+pub(super) fn clean_words(mut path: Replayed) -> Replayed {
+    for call in &mut path.calls {
+        let names = call.given.iter_mut().chain(&mut call.got).map(|(name, _)| name);
+        for word in names.chain([&mut call.function]) {
+            *word = short(word);
+        }
+    }
+    path
+}
+
+pub(super) fn check_shape(
+    rendered: Rendered,
+    batches: usize,
+    pixels: usize,
+) -> std::result::Result<Rendered, Fault> {
+    let whole =
+        rendered.batches.len() == batches && rendered.batches.iter().all(|batch| batch.len() == pixels);
+    if !whole {
+        return Err(Fault::Malformed("the number of batches or pixels is wrong".to_owned()));
+    }
+    if rendered.batches.iter().flatten().flatten().any(|value| !value.is_finite()) {
+        return Err(Fault::Malformed("a mean is not finite".to_owned()));
+    }
+    Ok(rendered)
+}
