@@ -22,7 +22,7 @@ tasks:
     title: A point light
     points: 10
     checks:
-      - { check: mean-bias, scene: point_plane, technique: nee, max_bounces: 1, evidence: true, tolerance: 0.01 }
+      - { check: mean-bias, scene: point_plane, technique: nee, max_bounces: 1, required: true, tolerance: 0.01 }
 ";
 
 /// A folder with a rubric and a class.
@@ -246,9 +246,9 @@ fn regrading_says_what_has_changed_and_a_fault_of_the_machine_costs_nobody_a_sco
         }
         let mut command = course.command(&["--out=out", "--regrade"]);
         let output = command.env("PATH", &tools).output().expect("the program starts");
-        // That is found with an empty hand-in: no result is touched.
+        // That is found with an empty submission: no result is touched.
         assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
-        assert!(stderr(&output).contains("not even an empty hand-in compiles"), "{}", stderr(&output));
+        assert!(stderr(&output).contains("not even an empty submission compiles"), "{}", stderr(&output));
         let kept = course.results("out");
         assert_eq!(kept["ann"], ("graded".to_owned(), String::new(), Some(10.0)));
     }

@@ -1,6 +1,6 @@
-//! How long it takes from a submission's source to its running process, and how much of that is the sandbox's.
+//! Time from a submission's source to its running process, and the share of the sandbox in it.
 //!
-//! `cargo bench -p grader`. The framework is built before, as for a grade.
+//! `cargo bench -p harness`. The framework is built before the measurement, as for a grade.
 
 use std::path::PathBuf;
 
