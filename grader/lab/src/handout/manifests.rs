@@ -70,10 +70,13 @@ pub(super) fn without_tests(text: &str, _: Audience) -> Result<String, String> {
     for key in ["bench", "example", "test"] {
         document.remove(key);
     }
-    let library = document.entry("lib").or_insert_with(|| Item::Table(Table::new()));
-    if let Some(table) = library.as_table_mut() {
-        table["doctest"] = value(false);
-        table["test"] = value(false);
+    // A package of programs alone has no library to switch tests off in.
+    if document.contains_key("lib") || !document.contains_key("bin") {
+        let library = document.entry("lib").or_insert_with(|| Item::Table(Table::new()));
+        if let Some(table) = library.as_table_mut() {
+            table["doctest"] = value(false);
+            table["test"] = value(false);
+        }
     }
     if let Some(programs) = document.get_mut("bin").and_then(Item::as_array_of_tables_mut) {
         for program in programs.iter_mut() {
@@ -167,7 +170,9 @@ source = "registry"
         assert_eq!(aliases(aliased, Audience::Students).as_deref(), Ok("[alias]\na = \"b\"\n"));
         let text = "[package]\nname = \"x\"\n[[bin]]\nname = \"x\"\n[[bench]]\nname = \"y\"\n";
         let left = without_tests(text, Audience::Students).expect("it is TOML");
-        assert_eq!(left.matches("test = false").count(), 3, "{left}");
-        assert!(!left.contains("bench"), "{left}");
+        assert_eq!(left.matches("test = false").count(), 1, "{left}");
+        assert!(!left.contains("bench") && !left.contains("[lib]"), "{left}");
+        let of_library = without_tests("[package]\nname = \"x\"\n", Audience::Students).expect("it is TOML");
+        assert_eq!(of_library.matches("test = false").count(), 2, "doctests, too: {of_library}");
     }
 }
