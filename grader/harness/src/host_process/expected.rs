@@ -161,8 +161,7 @@ mod tests {
         assert!(error(&rendered(vec![Vec::new(); 9000])).contains("parts"));
         assert!(error(&Response::Probed(vec![Vec::new(); 9000])).contains("parts"));
         assert!(error(&rendered(vec![vec![[0.0; 3]; 4000]; 3])).contains("bytes"));
-        let path =
-            ProbedPath { radiance: [0.0; 3], rays: 0, shadow_rays: 0, light_samples: 0, bsdf_samples: 0 };
+        let path = ProbedPath { radiance: [0.0; 3], rays: 0, shadow_rays: 0, light_samples: 0 };
         assert!(read(Expected::start(), &Response::Probed(vec![vec![path]])).is_err());
     }
 }
