@@ -22,7 +22,7 @@ tasks:
     title: A point light
     points: 10
     checks:
-      - { check: mean-bias, scene: point_plane, technique: nee, max_bounces: 1, evidence: true, tolerance: 0.01 }
+      - { check: mean-bias, scene: point_plane, technique: nee, max_bounces: 1, required: true, tolerance: 0.01 }
 ";
 
 /// A folder with a rubric and a class.
@@ -32,6 +32,7 @@ impl Course {
     fn new(submissions: &[(&str, &str)]) -> Self {
         let course = Self(tempfile::tempdir().expect("a temporary folder"));
         course.write("rubric/rubric.yml", RUBRIC);
+        course.write("rubric/starter.rs", &starter());
         for (name, source) in submissions {
             course.write(&format!("class/{name}"), source);
         }
@@ -97,7 +98,7 @@ fn solution() -> String {
 }
 
 fn starter() -> String {
-    read("skeleton/src/algorithms/render_pt.rs")
+    read("assignments/05-nee-mis/starter.rs")
 }
 
 /// A submission whose `radiance` does this.

@@ -156,7 +156,7 @@ fn the_cause_is_named_in_programs_of_another_style() {
 #[test]
 fn an_untouched_starting_file_is_recognised() {
     let workspace = workspace();
-    let source = std::fs::read_to_string(workspace.student_file()).expect("it is there");
+    let source = std::fs::read_to_string(workspace.starter_file("05-nee-mis")).expect("it is there");
     let submission = Submission { path: "render_pt.rs".into(), source };
     let options = Options {
         assignment: "05-nee-mis".into(),

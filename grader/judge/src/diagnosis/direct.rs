@@ -10,7 +10,7 @@ use super::Found;
 const BOTH: [Technique; 2] = [Technique::Nee, Technique::Mis];
 
 /// Causes that are plain from the report and the source.
-pub(super) fn causes(report: &Report, source: &str) -> Vec<Found> {
+pub(super) fn causes(report: &Report, source: &str, starter: &str) -> Vec<Found> {
     if report.submission.build_failure.is_some() {
         let refused = report.submission.refusal.is_some();
         let cause = if refused { Cause::NothingToCompile } else { Cause::DoesNotCompile };
@@ -27,7 +27,7 @@ pub(super) fn causes(report: &Report, source: &str) -> Vec<Found> {
     if 2 * late > report.checks.len() {
         all.push(found(Cause::DoesNotFinish { late }, stopped(Reason::Timeout).next(), &BOTH));
     }
-    let untouched = Untouched::of(source);
+    let untouched = Untouched::of(source, starter);
     if all.is_empty() && untouched.everything {
         all.push(found(Cause::NotBegun, None, &BOTH));
     } else if all.is_empty() && untouched.mis && weighs_nothing(report) {
@@ -87,43 +87,40 @@ fn weighs_nothing(report: &Report) -> bool {
     })
 }
 
-/// Which parts nobody has begun, by the marks of the starting file; nothing where there are no such marks.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Which parts of a submission have not been begun. Neither, if it or the starting file has no task blocks.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Untouched {
-    /// No line of code is in any of its blocks, but those of the starting file.
+    /// Its task blocks hold no code beyond that of the starting file's blocks.
     everything: bool,
-    /// The code never speaks of the technique `Mis`.
+    /// Some blocks were filled in, but the code never names the technique `Mis`.
     mis: bool,
 }
 
 impl Untouched {
-    fn of(source: &str) -> Self {
-        let (mut blocks, mut written, mut within) = (0, 0, false);
-        for line in source.lines().map(str::trim) {
-            if line.starts_with("// TASK") {
-                within = true;
-                blocks += 1;
-            } else if line.starts_with("// END") {
-                within = false;
-            } else if within && !line.is_empty() && !line.starts_with("//") && !GIVEN.contains(&line) {
-                written += 1;
-            }
-        }
-        let code = |line: &str| line.split("//").next().unwrap_or_default().contains("Mis");
-        let everything = blocks > 0 && written == 0;
-        Self { everything, mis: blocks > 0 && !everything && !source.lines().any(code) }
+    fn of(source: &str, starter: &str) -> Self {
+        let (Some(written), Some(given)) = (code_in_blocks(source), code_in_blocks(starter)) else {
+            return Self::default();
+        };
+        let names_mis = |line: &str| line.split("//").next().unwrap_or_default().contains("Mis");
+        let everything = written.iter().all(|line| given.contains(line));
+        Self { everything, mis: !everything && !source.lines().any(names_mis) }
     }
 }
 
-/// The code in the blocks of the starting file.
-const GIVEN: [&str; 6] = [
-    "last_bounce = Some(LastBounce {});",
-    "let _ = (scene, hit, bsdf, sampler); // Delete this line once you use them.",
-    "Rgb::BLACK",
-    "let _ = (scene, hit, emission, last_bounce); // Delete this line once you use them.",
-    "1.0",
-    "struct LastBounce {}",
-];
+/// The lines of code between `// TASK` and `// END`, without indentation; `None` if there is no such block.
+fn code_in_blocks(source: &str) -> Option<Vec<&str>> {
+    let (mut code, mut has_block, mut is_inside) = (Vec::new(), false, false);
+    for line in source.lines().map(str::trim) {
+        if line.starts_with("// TASK") {
+            (has_block, is_inside) = (true, true);
+        } else if line.starts_with("// END") {
+            is_inside = false;
+        } else if is_inside && !line.is_empty() && !line.starts_with("//") {
+            code.push(line);
+        }
+    }
+    has_block.then_some(code)
+}
 
 #[cfg(test)]
 mod tests {
@@ -132,7 +129,7 @@ mod tests {
     use verdict::sample::report;
 
     fn named(report: &Report, source: &str) -> Vec<String> {
-        causes(report, source).into_iter().map(|found| found.diagnosis.cause.id().to_owned()).collect()
+        causes(report, source, BLOCK).into_iter().map(|found| found.diagnosis.cause.id().to_owned()).collect()
     }
 
     #[test]
@@ -155,7 +152,7 @@ mod tests {
         let mut report = report("x");
         let messages = "error[E0425]: cannot find value `x`".to_owned();
         report.submission.build_failure = Some(verdict::submission::BuildFailure { messages, line: Some(7) });
-        let found = causes(&report, BLOCK);
+        let found = causes(&report, BLOCK, BLOCK);
         assert_eq!(found.len(), 1);
         assert_eq!(found[0].diagnosis.cause, Cause::DoesNotCompile);
         assert!(found[0].is_everything());
@@ -174,7 +171,8 @@ mod tests {
             (format!("{BLOCK}// TASK 5.2\nmatch t {{ Mis => 1.0 }}\n// END\n"), nothing),
             ("fn without_marks() {}".to_owned(), nothing),
         ] {
-            assert_eq!(Untouched::of(&source), expected, "{source}");
+            assert_eq!(Untouched::of(&source, BLOCK), expected, "{source}");
+            assert_eq!(Untouched::of(&source, ""), nothing, "without a starting file: {source}");
         }
     }
 }

@@ -115,12 +115,13 @@ impl Catalogue {
     }
 
     /// At most [`MAX_CAUSES`] likely causes, the likeliest first. None for a submission whose checks all pass.
-    pub fn diagnose(&self, report: &Report, source: &str) -> Vec<Diagnosis> {
+    /// `starter` is the text of the assignment's starting file, empty if it has none.
+    pub fn diagnose(&self, report: &Report, source: &str, starter: &str) -> Vec<Diagnosis> {
         let wrong = report.checks.iter().any(CheckResult::is_lacking);
         if !wrong && report.submission.build_failure.is_none() {
             return Vec::new();
         }
-        let mut found = direct::causes(report, source);
+        let mut found = direct::causes(report, source, starter);
         let explained = |technique: Technique| found.iter().any(|direct| direct.explains(technique));
         let vector = Vector::of(report).without(explained);
         if found.iter().all(|direct| !direct.is_everything()) {

@@ -76,6 +76,8 @@ pub struct Grader {
     provenance: Provenance,
     /// The mistakes that are known.
     catalogue: Catalogue,
+    /// Text of the assignment's starting file; empty if it has none.
+    starter: String,
 }
 
 impl Grader {
@@ -123,6 +125,7 @@ impl Grader {
             skipped,
             provenance,
             catalogue: Catalogue::load(&workspace.assignment(&options.assignment))?,
+            starter: workspace.starter(&options.assignment)?,
         })
     }
 
@@ -240,7 +243,7 @@ impl Grader {
             convergence: None,
             images: Vec::new(),
         };
-        report.diagnosis = self.catalogue.diagnose(&report, &submission.source);
+        report.diagnosis = self.catalogue.diagnose(&report, &submission.source, &self.starter);
         Ok((report, program))
     }
 
