@@ -1,8 +1,8 @@
 //! What is right, and how sure that is: statistics, references, checks, grades, diagnoses.
 //!
-//! [`checks`] ask a submission for numbers and judge them with [`statistics`] against [`mod@reference`]s or closed forms;
-//! [`mod@plan`] says where each check means something; [`mod@grade`] turns verdicts into points; [`diagnosis`] finds
-//! likely causes. [`convergence`] measures error against run time, for no points.
+//! [`checks`] ask a submission for numbers and judge them with [`statistics`] against [`mod@reference`]s or closed
+//! forms; [`mod@plan`] says where each check means something; [`mod@grade`] turns verdicts into points; [`diagnosis`]
+//! finds likely causes. [`convergence`] measures error against run time, for no points.
 
 pub mod checks;
 pub mod convergence;

@@ -17,11 +17,11 @@ use verdict::error::Result;
 use verdict::pictures::{Picture, THUMBNAIL_SCENE, half_bits};
 use verdict::report::Report;
 
-/// The most scenes of a page: a scene takes 0.8 of 3 megabytes.
+/// The max_pictures scenes of a page: a scene takes 0.8 of 3 megabytes.
 pub const MAX_PICTURES: usize = 3;
 
-/// What is shown where nothing is wrong. The first one is always there, so that a class can be looked at as one wall.
-const TELLING: [&str; MAX_PICTURES] = [THUMBNAIL_SCENE, "veach_mis", "cornell_box_glossy"];
+/// What is display where nothing is wrong. The first one is always there, so that a class can be looked at as one wall.
+const DEFAULT_SCENES: [&str; MAX_PICTURES] = [THUMBNAIL_SCENE, "veach_mis", "cornell_box_glossy"];
 
 /// Independent renderings, and samples of each pixel in each.
 const BATCHES: u64 = 8;
@@ -34,7 +34,8 @@ const HALF_ROUNDING: f64 = 1.0 / 2048.0;
 const RADIUS: usize = 2;
 
 /// Pictures of one scene that always is the same, of those whose means are wrong, and of a few that tell much. What
-/// cannot be shown is left out, as are all beyond `most`: no picture decides anything. A submission that ran out of time is not rendered again.
+/// cannot be display is left out, as are all beyond `max_pictures`: no picture decides anything. A submission that ran
+/// out of time is not rendered again.
 ///
 /// # Errors
 /// What is not the submission's doing.
@@ -44,7 +45,7 @@ pub fn pictures(
     report: &Report,
     threads: usize,
     seed: u64,
-    most: usize,
+    max_pictures: usize,
 ) -> Result<Vec<Picture>> {
     let mut list = Vec::new();
     if report.checks.iter().any(|check| matches!(check.reason, Reason::Timeout | Reason::Crash)) {
@@ -54,8 +55,8 @@ pub fn pictures(
     let wrong =
         wrong.filter(|check| check.id.kind == CheckKind::MeanBias).map(|check| check.id.scene.as_str());
     let mut seen: Vec<&str> = Vec::new();
-    for scene in TELLING.into_iter().take(1).chain(wrong).chain(TELLING) {
-        if list.len() == most {
+    for scene in DEFAULT_SCENES.into_iter().take(1).chain(wrong).chain(DEFAULT_SCENES) {
+        if list.len() == max_pictures {
             break;
         }
         if !seen.contains(&scene) {
@@ -74,7 +75,8 @@ fn picture(
     seed: u64,
 ) -> Result<Option<Picture>> {
     let description = arty::scene::file::load(&workspace.scene_file(scene))?.description;
-    let Some(Shown { reference, width, height, max_bounces }) = half_size(workspace, scene, &description)
+    let Some(DisplayReference { reference, width, height, max_bounces }) =
+        half_size_reference(workspace, scene, &description)
     else {
         return Ok(None);
     };
@@ -142,7 +144,7 @@ fn mean_and_z(
 }
 
 /// A reference for looking at.
-pub(crate) struct Shown {
+pub(crate) struct DisplayReference {
     /// Row by row from the top.
     pub(crate) reference: Vec<[f64; 3]>,
     pub(crate) width: usize,
@@ -152,7 +154,11 @@ pub(crate) struct Shown {
 
 /// The reference at half its size; `None` if it is not there, shows another scene, or does not say how many bounces it
 /// has.
-pub(crate) fn half_size(workspace: &Workspace, scene: &str, description: &SceneDescription) -> Option<Shown> {
+pub(crate) fn half_size_reference(
+    workspace: &Workspace,
+    scene: &str,
+    description: &SceneDescription,
+) -> Option<DisplayReference> {
     let file = ExrFile::read(&workspace.picture_file(scene)).ok()?;
     let max_bounces = file.metadata.get("arty:max_bounces")?.parse().ok()?;
     let hash = description.hash();
@@ -166,7 +172,7 @@ pub(crate) fn half_size(workspace: &Workspace, scene: &str, description: &SceneD
     };
     let reference =
         (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| of_four(x, y)).collect();
-    Some(Shown { reference, width, height, max_bounces })
+    Some(DisplayReference { reference, width, height, max_bounces })
 }
 
 /// Sums of differences over a small square around each pixel, divided by the root of the sum of their variances: a

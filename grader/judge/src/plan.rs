@@ -12,7 +12,7 @@ use crate::checks::{SceneWithReference, of_kind};
 
 /// A kind of check in a scene.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Entry {
+pub struct PlannedCheck {
     /// The kind.
     pub check: CheckKind,
     /// With which technique.
@@ -22,11 +22,11 @@ pub struct Entry {
 }
 
 /// Everything that could be checked in a scene, with the number of bounces that says most.
-pub fn for_scene(scene: &SceneWithReference) -> Vec<Entry> {
+pub fn for_scene(scene: &SceneWithReference) -> Vec<PlannedCheck> {
     let all = scene.scene.defaults().max_bounces.unwrap_or(8);
     let entry = |kind: CheckKind, technique| {
-        let spec = CheckSpec::new(kind, technique, of_kind(kind).telling_bounces(all));
-        Entry { check: kind, technique, why_not: why_not(&spec, scene).err() }
+        let spec = CheckSpec::new(kind, technique, of_kind(kind).recommended_bounces(all));
+        PlannedCheck { check: kind, technique, why_not: why_not(&spec, scene).err() }
     };
     let kinds = CheckKind::ALL.into_iter().filter(|&kind| kind != CheckKind::HiddenVariants);
     kinds
@@ -59,8 +59,8 @@ pub fn validate(rubric: &Rubric) -> Result<()> {
     Ok(())
 }
 
-/// Why a check of a rubric is skipped; `None` if it is not. Its scene is `None` if it makes its own, or if only staff have
-/// it.
+/// Why a check of a rubric is skipped; `None` if it is not. Its scene is `None` if it makes its own, or if only staff
+/// have it.
 pub fn why_skipped(
     spec: &CheckSpec,
     scene: Option<&SceneWithReference>,
@@ -81,7 +81,7 @@ pub fn needs_staff(spec: &CheckSpec) -> bool {
 /// What is skipped in all scenes of a grade, and why.
 pub fn skipped(scenes: &BTreeMap<String, SceneWithReference>) -> Vec<SkippedCheck> {
     let of_scene = |(name, scene): (&String, &SceneWithReference)| -> Vec<SkippedCheck> {
-        let skipped = |Entry { check: kind, technique, why_not }: Entry| {
+        let skipped = |PlannedCheck { check: kind, technique, why_not }: PlannedCheck| {
             Some(SkippedCheck { kind, technique, scene: name.clone(), check: None, why: why_not? })
         };
         for_scene(scene).into_iter().filter_map(skipped).collect()

@@ -1,6 +1,7 @@
 //! The check of single weights, on files that are right, wrong, and right in another style.
 //!
-//! A submission that decides nothing by chance at its first vertices gives exact weights, so nothing here is left to luck.
+//! A submission that decides nothing by chance at its first vertices gives exact weights, so nothing here is left to
+//! luck.
 
 use std::path::PathBuf;
 

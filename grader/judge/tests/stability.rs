@@ -1,8 +1,8 @@
-//! The check of stability and the replay of single paths, on files that are right, wrong, and right within the range that
-//! counts.
+//! The check of stability and the replay of single paths, on files that are right, wrong, and right within the range
+//! that counts.
 //!
-//! Scaled scenes give a correct submission the same numbers to the last bit, so that nothing there is left to luck; each of the
-//! means in extreme scenes raises a false alarm less than once in ten million runs, and seeds are fixed.
+//! Scaled scenes give a correct submission the same numbers to the last bit, so that nothing there is left to luck;
+//! each of the means in extreme scenes raises a false alarm less than once in ten million runs, and seeds are fixed.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! Scenes of the collection, for tests.
+//! Scenes of `scenes/` for tests.
 
 use arty::scene::Scene;
 
@@ -6,8 +6,8 @@ use super::SceneWithReference;
 use crate::reference;
 use harness::workspace::Workspace;
 
-/// A scene with its reference.
-pub(super) fn judged(name: &str) -> SceneWithReference {
+/// Loads a scene with its reference.
+pub(super) fn load(name: &str) -> SceneWithReference {
     let workspace = Workspace::find().expect("this is the repository");
     let description =
         arty::scene::file::load(&workspace.scene_file(name)).expect("the scene is right").description;

@@ -2,10 +2,10 @@
 
 use arty::integrator::Technique;
 
-use super::measure::{Contestant, Options, measure};
+use super::measure::{MeasuredProgram, Options, measure};
 use harness::build::SubmissionProgram;
 use harness::workspace::Workspace;
-use verdict::convergence::{Convergence, LeftOut, Role};
+use verdict::convergence::{Convergence, NotMeasured, Role};
 use verdict::error::Result;
 
 /// The two scenes in which the techniques differ most in a short time.
@@ -14,8 +14,8 @@ const SCENES: [&str; 2] = ["cornell_box", "veach_mis"];
 /// Processor time of all renderings, in seconds.
 const SECONDS: f64 = 1.8;
 
-/// Measures `mis` of a submission beside that of the solution and plain BSDF sampling, in about two seconds. In a checkout
-/// without the solution the submission's own BSDF sampling is all that there is to compare with.
+/// Measures `mis` of a submission beside that of the solution and plain BSDF sampling, in about two seconds. In a
+/// checkout without the solution the submission's own BSDF sampling is all that there is to compare with.
 ///
 /// # Errors
 /// What is not the submission's doing.
@@ -25,10 +25,10 @@ pub fn brief(
     solution: Option<&SubmissionProgram>,
     seed: u64,
 ) -> Result<Convergence> {
-    let contestant = |name: &str, role, program| Contestant { name: name.to_owned(), role, program };
-    let mut contestants = vec![contestant("submission", Role::Submission, submission)];
-    contestants.extend(solution.map(|program| contestant("solution", Role::Solution, program)));
-    contestants.push(contestant("BSDF sampling", Role::Baseline, solution.unwrap_or(submission)));
+    let named = |name: &str, role, program| MeasuredProgram { name: name.to_owned(), role, program };
+    let mut programs = vec![named("submission", Role::Submission, submission)];
+    programs.extend(solution.map(|program| named("solution", Role::Solution, program)));
+    programs.push(named("BSDF sampling", Role::Baseline, solution.unwrap_or(submission)));
     let options = Options {
         scenes: SCENES.map(str::to_owned).to_vec(),
         techniques: vec![Technique::Mis],
@@ -38,11 +38,11 @@ pub fn brief(
         threads: 1,
         lengths: 5,
     };
-    let mut convergence = measure(workspace, &contestants, &options, |_| {})?;
+    let mut convergence = measure(workspace, &programs, &options, |_| {})?;
     if solution.is_none() {
         convergence.left_out.insert(
             0,
-            LeftOut {
+            NotMeasured {
                 program: "solution".to_owned(),
                 scene: String::new(),
                 why: "there is no solution in this checkout to compare with".to_owned(),

@@ -6,9 +6,9 @@ use host::protocol::RenderJob;
 
 use verdict::convergence::{Convergence, Crop, Crops, Curve, Panel, Role};
 
-use super::Contestant;
+use super::MeasuredProgram;
 use crate::image_error::{Truth, relative_mse, relative_weight};
-use crate::pictures::{Shown, half_size};
+use crate::pictures::{DisplayReference, half_size_reference};
 use crate::reference::SIZE;
 use harness::host_process::HostProcess;
 use harness::job::apart;
@@ -29,35 +29,35 @@ const STEP: usize = 8;
 /// What is not a submission's doing.
 pub fn crops(
     workspace: &Workspace,
-    contestants: &[Contestant<'_>],
+    programs: &[MeasuredProgram<'_>],
     convergence: &Convergence,
 ) -> Result<Vec<Crops>> {
     let mut all = Vec::new();
     for panel in &convergence.panels {
-        all.extend(of_panel(workspace, contestants, convergence, panel)?);
+        all.extend(of_panel(workspace, programs, convergence, panel)?);
     }
     Ok(all)
 }
 
 fn of_panel(
     workspace: &Workspace,
-    contestants: &[Contestant<'_>],
+    programs: &[MeasuredProgram<'_>],
     convergence: &Convergence,
     panel: &Panel,
 ) -> Result<Option<Crops>> {
     let description = arty::scene::file::load(&workspace.scene_file(&panel.scene))?.description;
-    let Some(shown) = half_size(workspace, &panel.scene, &description) else { return Ok(None) };
-    let Shown { reference, width, height, max_bounces } = &shown;
+    let Some(display) = half_size_reference(workspace, &panel.scene, &description) else { return Ok(None) };
+    let DisplayReference { reference, width, height, max_bounces } = &display;
     let (width, height) = (*width, *height);
     let mut rendered: Vec<(&Curve, u64, Vec<[f64; 3]>)> = Vec::new();
     for curve in &panel.curves {
         // There is one baseline; what it misses is added to its name.
-        let is_its = |it: &&Contestant<'_>| {
+        let is_its = |it: &&MeasuredProgram<'_>| {
             it.role == curve.role && (it.role == Role::Baseline || it.name == curve.name)
         };
-        let Some(contestant) = contestants.iter().find(is_its) else { continue };
+        let Some(program) = programs.iter().find(is_its) else { continue };
         let Some(samples) = samples(curve, width * height) else { continue };
-        let mut process = HostProcess::start(contestant.program, convergence.threads)?;
+        let mut process = HostProcess::start(program.program, convergence.threads)?;
         let Ok(scene) = apart(process.load(&description))? else { continue };
         let job = RenderJob::new(
             scene,
@@ -73,7 +73,7 @@ fn of_panel(
     }
     let solution = rendered.iter().find(|(curve, ..)| curve.role == Role::Solution);
     let Some((_, _, guide)) = solution.or(rendered.first()) else { return Ok(None) };
-    let corner = worst(guide, reference, (width, height));
+    let corner = worst_corner(guide, reference, (width, height));
     let (columns, rows) = (CROP.min(width), CROP.min(height));
     let part = |picture: &[[f64; 3]]| {
         let row = |y: usize| &picture[(corner.1 + y) * width + corner.0..][..columns];
@@ -110,7 +110,11 @@ fn samples(curve: &Curve, pixels: usize) -> Option<u64> {
 }
 
 /// The upper left corner of the crop with the most relative squared error.
-fn worst(picture: &[[f64; 3]], reference: &[[f64; 3]], (width, height): (usize, usize)) -> (usize, usize) {
+fn worst_corner(
+    picture: &[[f64; 3]],
+    reference: &[[f64; 3]],
+    (width, height): (usize, usize),
+) -> (usize, usize) {
     let error = |index: usize| -> f64 {
         let pairs = picture[index].iter().zip(&reference[index]);
         pairs.map(|(x, &r)| relative_weight(r) * (x - r).powi(2)).sum()
@@ -134,8 +138,8 @@ mod tests {
         let reference = vec![[1.0; 3]; 160 * 128];
         let mut picture = reference.clone();
         picture[100 * 160 + 130] = [5.0; 3];
-        let (left, top) = worst(&picture, &reference, (160, 128));
+        let (left, top) = worst_corner(&picture, &reference, (160, 128));
         assert!((left..left + CROP).contains(&130) && (top..top + CROP).contains(&100), "{left}, {top}");
-        assert_eq!(worst(&reference[..4], &reference[..4], (2, 2)), (0, 0), "smaller than a crop");
+        assert_eq!(worst_corner(&reference[..4], &reference[..4], (2, 2)), (0, 0), "smaller than a crop");
     }
 }

@@ -13,11 +13,11 @@ use verdict::error::Result;
 
 /// One curve while it is measured.
 pub(super) struct CurveRun {
-    /// Its place among the contestants.
-    pub(super) contestant: usize,
+    /// Its place among the programs.
+    pub(super) program: usize,
     pub(super) settings: Settings,
     pub(super) seed: u64,
-    pub(super) levels: Vec<Level>,
+    pub(super) levels: Vec<RenderLength>,
     pub(super) non_finite: u64,
     /// What ended it, if anything did.
     pub(super) fault: Option<Fault>,
@@ -25,7 +25,7 @@ pub(super) struct CurveRun {
 
 /// Renderings of one length.
 #[derive(Default)]
-pub(super) struct Level {
+pub(super) struct RenderLength {
     wanted: usize,
     renders: Renders,
     /// Processor time of one rendering, job by job.
@@ -39,13 +39,13 @@ pub(super) const ROUNDS: usize = 3;
 const RENDERS: (usize, usize) = (6, 48);
 
 /// Of each length so many times as many renderings as of the next longer one.
-const MORE_OF_SHORTER: f64 = 1.5;
+const SHORTER_FACTOR: f64 = 1.5;
 
 /// A rendering takes at most this long and, the shortest ones, hardly less than that, in seconds.
 const RENDER_TIME: (f64, f64) = (0.3e-3, 5.0);
 
 /// Each length is at most so many times the next shorter one.
-const LARGEST_STEP: f64 = 4.0;
+const MAX_STEP: f64 = 4.0;
 
 impl CurveRun {
     /// Warms up, sees how fast it goes, and plans renderings that take the given processor time altogether.
@@ -63,23 +63,23 @@ impl CurveRun {
         };
         let last = f64::from(lengths.max(2) - 1);
         let shortest = (RENDER_TIME.0 / per_sample).max(1.0);
-        let plan = |longest: f64| -> Vec<Level> {
-            let step = (longest / shortest).powf(1.0 / last).clamp(1.0, LARGEST_STEP);
+        let plan = |longest: f64| -> Vec<RenderLength> {
+            let step = (longest / shortest).powf(1.0 / last).clamp(1.0, MAX_STEP);
             let level = |k: u32| {
                 let samples = (longest / step.powf(last - f64::from(k))).round().max(1.0) as u64;
-                let more = MORE_OF_SHORTER.powi((lengths - 1 - k) as i32);
+                let more = SHORTER_FACTOR.powi((lengths - 1 - k) as i32);
                 let wanted = ((RENDERS.0 as f64 * more) as usize).min(RENDERS.1);
-                Level { wanted, renders: Renders { samples, ..Renders::default() }, times: Vec::new() }
+                RenderLength { wanted, renders: Renders { samples, ..Renders::default() }, times: Vec::new() }
             };
-            let mut levels: Vec<Level> = (0..lengths).map(level).collect();
+            let mut levels: Vec<RenderLength> = (0..lengths).map(level).collect();
             levels.dedup_by_key(|level| level.renders.samples);
             levels
         };
-        let takes = |levels: &[Level]| -> f64 {
+        let seconds_of = |levels: &[RenderLength]| -> f64 {
             levels.iter().map(|level| level.wanted as f64 * level.renders.samples as f64 * per_sample).sum()
         };
         let mut longest = (seconds / RENDERS.0 as f64).min(RENDER_TIME.1) / per_sample;
-        while longest > 1.0 && takes(&plan(longest)) > seconds {
+        while longest > 1.0 && seconds_of(&plan(longest)) > seconds {
             longest *= 0.95;
         }
         self.levels = plan(longest.max(1.0));
@@ -88,7 +88,7 @@ impl CurveRun {
 
     /// One turn of one length.
     pub(super) fn render(&mut self, process: &mut HostProcess, level: usize, round: usize) -> Result<()> {
-        let Some(Level { wanted, renders, .. }) = self.levels.get(level) else { return Ok(()) };
+        let Some(RenderLength { wanted, renders, .. }) = self.levels.get(level) else { return Ok(()) };
         let (samples, first) = (renders.samples, renders.images.len());
         let until = wanted * (round + 1) / ROUNDS;
         let seeds: Vec<u64> = (first..until)

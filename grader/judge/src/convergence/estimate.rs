@@ -24,20 +24,20 @@ pub(super) struct Renders {
 }
 
 /// A point, and what became of its relative MSE in each of the [`REPLICATES`].
-pub(super) struct Estimated {
+pub(super) struct PointEstimate {
     pub(super) point: Point,
     pub(super) replicates: Vec<f64>,
 }
 
 /// The errors of renderings of one length; `None` for fewer than two renderings.
-pub(super) fn estimate(renders: &Renders, truth: Truth<'_>, seed: u64) -> Option<Estimated> {
+pub(super) fn estimate(renders: &Renders, truth: Truth<'_>, seed: u64) -> Option<PointEstimate> {
     let count = renders.images.len();
     if count < 2 {
         return None;
     }
     let images: Vec<&[[f64; 3]]> = renders.images.iter().map(Vec::as_slice).collect();
-    let absolute = Products::new(&images, truth, |_| 1.0);
-    let relative = Products::new(&images, truth, relative_weight);
+    let absolute = ErrorProducts::new(&images, truth, |_| 1.0);
+    let relative = ErrorProducts::new(&images, truth, relative_weight);
     let trimmed: Vec<f64> = images.iter().map(|image| trimmed_relative_mse(image, truth)).collect();
     let weighted = |weights: &[f64]| -> [f64; 5] {
         let total: f64 = weights.iter().sum();
@@ -47,7 +47,8 @@ pub(super) fn estimate(renders: &Renders, truth: Truth<'_>, seed: u64) -> Option
         [relative.mse(weights), mean_trimmed, mse, bias_squared, mse - bias_squared]
     };
     let values = weighted(&vec![1.0; count]);
-    let drawn: Vec<[f64; 5]> = Draws::new(seed, &[count]).map(|weights| weighted(&weights)).collect();
+    let drawn: Vec<[f64; 5]> =
+        BootstrapDraws::new(seed, &[count]).map(|weights| weighted(&weights)).collect();
     let [relative_mse, trimmed_relative_mse, mse, bias_squared, variance] = std::array::from_fn(|index| {
         with_percentiles(values[index], drawn.iter().map(|values| values[index]).collect())
     });
@@ -55,7 +56,7 @@ pub(super) fn estimate(renders: &Renders, truth: Truth<'_>, seed: u64) -> Option
     let renders = count;
     let point =
         Point { samples, renders, seconds, relative_mse, trimmed_relative_mse, mse, bias_squared, variance };
-    Some(Estimated { point, replicates: drawn.into_iter().map(|values| values[0]).collect() })
+    Some(PointEstimate { point, replicates: drawn.into_iter().map(|values| values[0]).collect() })
 }
 
 /// The relative squared bias from renderings of all lengths, each weighted by its samples, and its standard deviation.
@@ -70,10 +71,10 @@ pub(super) fn relative_bias_squared(
     if images.len() < 2 {
         return None;
     }
-    let products = Products::new(&images, truth, relative_weight);
+    let products = ErrorProducts::new(&images, truth, relative_weight);
     let value = products.bias_squared(&samples);
     let sizes: Vec<usize> = levels.iter().map(|level| level.images.len()).filter(|&size| size > 0).collect();
-    let drawn: Vec<f64> = Draws::new(seed, &sizes)
+    let drawn: Vec<f64> = BootstrapDraws::new(seed, &sizes)
         .map(|weights| {
             let weights: Vec<f64> =
                 weights.iter().zip(&samples).map(|(weight, samples)| weight * samples).collect();
@@ -97,14 +98,14 @@ pub(super) fn with_percentiles(value: f64, mut replicates: Vec<f64>) -> Estimate
 }
 
 /// The mean products of the errors of any two renderings.
-struct Products {
+struct ErrorProducts {
     count: usize,
-    of_two: Vec<f64>,
+    pairs: Vec<f64>,
     /// What the reference's noise adds to each.
     noise: f64,
 }
 
-impl Products {
+impl ErrorProducts {
     fn new(images: &[&[[f64; 3]]], truth: Truth<'_>, weight: fn(f64) -> f64) -> Self {
         let roots: Vec<f64> = truth.mean.iter().flatten().map(|&value| weight(value).sqrt()).collect();
         let size = roots.len().max(1) as f64;
@@ -116,24 +117,24 @@ impl Products {
             })
             .collect();
         let count = images.len();
-        let mut of_two = vec![0.0; count * count];
+        let mut pairs = vec![0.0; count * count];
         for first in 0..count {
             for second in first..count {
                 let product: f64 = errors[first].iter().zip(&errors[second]).map(|(a, b)| a * b).sum();
-                of_two[first * count + second] = product / size;
-                of_two[second * count + first] = product / size;
+                pairs[first * count + second] = product / size;
+                pairs[second * count + first] = product / size;
             }
         }
         let noise = truth.variance.map_or(0.0, |variance| {
             variance.iter().flatten().zip(&roots).map(|(variance, root)| root * root * variance).sum::<f64>()
                 / size
         });
-        Self { count, of_two, noise }
+        Self { count, pairs, noise }
     }
 
     /// The mean squared error, each rendering with its weight.
     fn mse(&self, weights: &[f64]) -> f64 {
-        let sum: f64 = (0..self.count).map(|b| weights[b] * self.of_two[b * self.count + b]).sum();
+        let sum: f64 = (0..self.count).map(|b| weights[b] * self.pairs[b * self.count + b]).sum();
         sum / weights.iter().sum::<f64>() - self.noise
     }
 
@@ -142,7 +143,7 @@ impl Products {
         let (mut sum, mut total) = (0.0, 0.0);
         for (first, &weight) in weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
             for (second, other) in weights.iter().enumerate().skip(first + 1) {
-                sum += weight * other * self.of_two[first * self.count + second];
+                sum += weight * other * self.pairs[first * self.count + second];
                 total += weight * other;
             }
         }
@@ -151,19 +152,19 @@ impl Products {
 }
 
 /// How often each rendering is drawn, again and again; renderings are drawn within their own length.
-struct Draws<'a> {
+struct BootstrapDraws<'a> {
     seed: u64,
     sizes: &'a [usize],
     drawn: usize,
 }
 
-impl<'a> Draws<'a> {
+impl<'a> BootstrapDraws<'a> {
     fn new(seed: u64, sizes: &'a [usize]) -> Self {
         Self { seed, sizes, drawn: 0 }
     }
 }
 
-impl Iterator for Draws<'_> {
+impl Iterator for BootstrapDraws<'_> {
     type Item = Vec<f64>;
 
     fn next(&mut self) -> Option<Vec<f64>> {

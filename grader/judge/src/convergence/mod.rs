@@ -19,4 +19,4 @@ mod summary;
 
 pub use brief::brief;
 pub use crops::crops;
-pub use measure::{Contestant, Options, measure};
+pub use measure::{MeasuredProgram, Options, measure};

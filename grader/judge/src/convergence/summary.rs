@@ -1,12 +1,13 @@
 //! What a whole curve says.
 
-use super::estimate::{Estimated, with_percentiles};
+use super::estimate::{PointEstimate, with_percentiles};
 use crate::statistics::regression::fit;
 use verdict::convergence::{Estimate, Point};
 
-/// The slope of ln(relative MSE) over ln(seconds). Errors that came out negative, being nothing but noise, are left out.
-pub(super) fn slope(levels: &[Estimated]) -> Option<Estimate> {
-    let of = |error: &dyn Fn(&Estimated) -> f64| -> Option<f64> {
+/// The slope of ln(relative MSE) over ln(seconds). Errors that came out negative, being nothing but noise, are left
+/// out.
+pub(super) fn slope(levels: &[PointEstimate]) -> Option<Estimate> {
+    let of = |error: &dyn Fn(&PointEstimate) -> f64| -> Option<f64> {
         let usable = levels.iter().map(|level| (level.point.seconds, error(level)));
         let points: Vec<([f64; 1], f64)> = usable
             .filter(|&(seconds, error)| seconds > 0.0 && error > 0.0)
@@ -20,8 +21,8 @@ pub(super) fn slope(levels: &[Estimated]) -> Option<Estimate> {
 
 /// How much more efficient one curve is than another: the ratio of their 1/(relative MSE × seconds), as the geometric
 /// mean over the longer half of the renderings.
-pub(super) fn efficiency(levels: &[Estimated], solution: &[Estimated]) -> Option<Estimate> {
-    let log_cost = |levels: &[Estimated], error: &dyn Fn(&Estimated) -> f64| -> Option<f64> {
+pub(super) fn efficiency(levels: &[PointEstimate], solution: &[PointEstimate]) -> Option<Estimate> {
+    let log_cost = |levels: &[PointEstimate], error: &dyn Fn(&PointEstimate) -> f64| -> Option<f64> {
         let longer = &levels[levels.len() / 2..];
         let costs: Vec<f64> = longer
             .iter()
@@ -30,14 +31,14 @@ pub(super) fn efficiency(levels: &[Estimated], solution: &[Estimated]) -> Option
             .collect();
         (!costs.is_empty()).then(|| costs.iter().map(|cost| cost.ln()).sum::<f64>() / costs.len() as f64)
     };
-    let of = |error: &dyn Fn(&Estimated) -> f64| -> Option<f64> {
+    let of = |error: &dyn Fn(&PointEstimate) -> f64| -> Option<f64> {
         Some((log_cost(solution, error)? - log_cost(levels, error)?).exp())
     };
     let value = of(&|level| level.point.relative_mse.value)?;
     Some(with_percentiles(value, replicated(levels, |index| of(&|level| level.replicates[index]))))
 }
 
-fn replicated(levels: &[Estimated], of: impl Fn(usize) -> Option<f64>) -> Vec<f64> {
+fn replicated(levels: &[PointEstimate], of: impl Fn(usize) -> Option<f64>) -> Vec<f64> {
     let count = levels.first().map_or(0, |level| level.replicates.len());
     (0..count).filter_map(of).collect()
 }
@@ -64,7 +65,7 @@ pub(super) fn rounded(value: f64) -> f64 {
 mod tests {
     use super::*;
 
-    fn curve(error: fn(f64) -> f64) -> Vec<Estimated> {
+    fn curve(error: fn(f64) -> f64) -> Vec<PointEstimate> {
         let level = |k: i32| {
             let seconds = 0.01 * 4.0_f64.powi(k);
             let value = error(seconds);
@@ -79,12 +80,12 @@ mod tests {
                 bias_squared: exact,
                 variance: exact,
             };
-            Estimated { point, replicates: vec![value; 3] }
+            PointEstimate { point, replicates: vec![value; 3] }
         };
         (0..6).map(level).collect()
     }
 
-    fn points(levels: &[Estimated]) -> Vec<Point> {
+    fn points(levels: &[PointEstimate]) -> Vec<Point> {
         levels.iter().map(|level| level.point.clone()).collect()
     }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use super::{Catalogue, UNKNOWN, Vector};
+use super::{Catalogue, ObservationVector, UNKNOWN};
 
 /// A vector whose cause is known.
 #[derive(Clone, Debug)]
@@ -27,7 +27,7 @@ pub struct Confusion {
 
 impl Confusion {
     /// Diagnoses a vector whose cause is known.
-    pub fn add(&mut self, catalogue: &Catalogue, variant: &str, seed: u64, vector: &Vector) {
+    pub fn add(&mut self, catalogue: &Catalogue, variant: &str, seed: u64, vector: &ObservationVector) {
         self.cases.push(Case {
             variant: variant.to_owned(),
             seed,
@@ -51,9 +51,8 @@ impl Confusion {
         [right().count(), right().filter(|case| !case.named.is_empty()).count()]
     }
 
-    /// As Markdown: for each cause what was named first, and which cases went wrong.
-    /// `early` is what became of the same cases in grades that stop early, each with the number of failures that they stop
-    /// after.
+    /// As Markdown: for each cause what was named first, and which cases went wrong. `early` is what became of the
+    /// same cases in grades that stop early, each with the number of failures that they stop after.
     pub fn table(&self, made_by: &str, early: &[(usize, Self)]) -> String {
         let ([wrong, first, named], [right, blamed]) = (self.wrong(), self.right());
         let percent = |count: usize| 100.0 * count as f64 / wrong.max(1) as f64;

@@ -4,13 +4,13 @@ use arty::integrator::Technique;
 use verdict::check::{CheckKind, CheckResult, Evidence, Fault, Reason, WeightForm};
 use verdict::report::{Cause, Diagnosis, Report, SeenIn};
 
-use super::Found;
+use super::ExplainedCause;
 
 /// The techniques that a submission has to fill in.
 const BOTH: [Technique; 2] = [Technique::Nee, Technique::Mis];
 
 /// Causes that are plain from the report and the source.
-pub(super) fn causes(report: &Report, source: &str, starter: &str) -> Vec<Found> {
+pub(super) fn causes(report: &Report, source: &str, starter: &str) -> Vec<ExplainedCause> {
     if report.submission.build_failure.is_some() {
         let refused = report.submission.refusal.is_some();
         let cause = if refused { Cause::NothingToCompile } else { Cause::DoesNotCompile };
@@ -30,15 +30,15 @@ pub(super) fn causes(report: &Report, source: &str, starter: &str) -> Vec<Found>
     let untouched = Untouched::of(source, starter);
     if all.is_empty() && untouched.everything {
         all.push(found(Cause::NotBegun, None, &BOTH));
-    } else if all.is_empty() && untouched.mis && weighs_nothing(report) {
+    } else if all.is_empty() && untouched.mis && has_constant_weights(report) {
         all.push(found(Cause::MisNotBegun, None, &[Technique::Mis]));
     }
     all
 }
 
-fn found(cause: Cause, seen: Option<&CheckResult>, explains: &[Technique]) -> Found {
+fn found(cause: Cause, seen: Option<&CheckResult>, explains: &[Technique]) -> ExplainedCause {
     let seen = seen.map(|check| SeenIn { wrong: check.id.clone(), right: None });
-    Found { diagnosis: Diagnosis { cause, confidence: 1.0, seen }, explains: explains.to_vec() }
+    ExplainedCause { diagnosis: Diagnosis { cause, confidence: 1.0, seen }, explains: explains.to_vec() }
 }
 
 /// True if it came to a macro of the standard library for code that is still to be written: only its message tells.
@@ -49,7 +49,7 @@ fn is_todo(check: &CheckResult) -> bool {
 
 /// What can be said where no known mistake fits: that direct light is too bright or too dark by the same factor in all
 /// scenes in which only light samples bring it.
-pub(super) fn constant_factor(report: &Report) -> Option<Found> {
+pub(super) fn constant_factor(report: &Report) -> Option<ExplainedCause> {
     let direct = report.checks.iter().filter(|check| {
         check.id.technique == Technique::Nee
             && check.id.max_bounces == 1
@@ -60,9 +60,9 @@ pub(super) fn constant_factor(report: &Report) -> Option<Found> {
         direct.filter_map(|check| Some((factor(check)?, check))).collect();
     factors.sort_by(|a, b| a.0.total_cmp(&b.0));
     let factor = factors.get(factors.len() / 2)?.0;
-    factors.retain(|(other, _)| (other / factor - 1.0).abs() < ALIKE);
-    let is_one = (factor - 1.0).abs() < 2.0 * ALIKE || factor < ALIKE;
-    (factors.len() >= ENOUGH && !is_one).then(|| {
+    factors.retain(|(other, _)| (other / factor - 1.0).abs() < SAME_FACTOR);
+    let is_one = (factor - 1.0).abs() < 2.0 * SAME_FACTOR || factor < SAME_FACTOR;
+    (factors.len() >= MIN_SCENES && !is_one).then(|| {
         let scenes = factors.iter().map(|(_, check)| check.id.scene.clone()).collect();
         let mut found = found(Cause::ConstantFactor { factor, scenes }, None, &[]);
         found.diagnosis.confidence = 0.5;
@@ -71,13 +71,13 @@ pub(super) fn constant_factor(report: &Report) -> Option<Found> {
 }
 
 /// Factors that differ by less are the same.
-const ALIKE: f64 = 0.04;
+const SAME_FACTOR: f64 = 0.04;
 
 /// Scenes that have to agree.
-const ENOUGH: usize = 4;
+const MIN_SCENES: usize = 4;
 
 /// True if the weights of `mis` were read, and are the same whatever the densities.
-fn weighs_nothing(report: &Report) -> bool {
+fn has_constant_weights(report: &Report) -> bool {
     let is_constant = |form: WeightForm| matches!(form, WeightForm::Constant(_));
     report.checks.iter().any(|check| match &check.evidence {
         Some(Evidence::MisWeights(test)) => {

@@ -1,11 +1,11 @@
 //! Why is it wrong? Likely causes of what the checks of a report have found, in words for students.
 //!
-//! A report is turned into [`Vector`], what each check saw as numbers (`observation`). The wrong variants of the
-//! solution have been graded, and their vectors are the *signatures* of the mistakes that are known
-//! (`signatures`, `cargo lab signatures`). The causes of a report are those whose signatures are nearest
-//! (`distance`, `rank`), unless even the nearest is too far: then the cause is unknown, and the report says so. What
-//! can be seen without any comparison is told first (`direct`): a file that does not compile or panics, tasks that nobody
-//! has begun. The words stand in the assignment's `causes.yml`, and `seen` names the checks that decided.
+//! A report is turned into [`ObservationVector`], what each check saw as numbers (`observation`). The wrong variants
+//! of the solution have been graded, and their vectors are the *signatures* of the mistakes that are known
+//! (`signatures`, `cargo lab signatures`). The causes of a report are those whose signatures are nearest (`distance`,
+//! `rank`), unless even the nearest is too far: then the cause is unknown, and the report says so. What can be seen
+//! without any comparison is told first (`direct`): a file that does not compile or panics, tasks that nobody has
+//! begun. The words stand in the assignment's `causes.yml`, and `seen` names the checks that decided.
 //!
 //! Whatever is compared, only checks count that both sides have: a grade may leave checks out, or stop early.
 
@@ -18,7 +18,7 @@ mod seen;
 mod signatures;
 
 pub use confusion::{Case, Confusion};
-pub use observation::{Number, Seen, State, Vector};
+pub use observation::{CheckObservations, CheckState, Number, ObservationVector};
 pub use signatures::Signatures;
 
 use std::path::{Path, PathBuf};
@@ -59,20 +59,24 @@ pub struct Cause {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+struct CausesFile {
     causes: Vec<Cause>,
 }
 
 impl Catalogue {
-    /// Reads an assignment's causes and signatures. An assignment need not have them: then only what is seen directly is
-    /// diagnosed.
+    /// Reads an assignment's causes and signatures. An assignment need not have them: then only what is seen directly
+    /// is diagnosed.
     ///
     /// # Errors
     /// If one of the files is not as it should be, or signatures are missing for a variant that a cause names.
     pub fn load(assignment: &Path) -> Result<Self> {
         let (words, measured) = (Self::words_file(assignment), Self::signatures_file(assignment));
         let catalogue = Self {
-            causes: if words.is_file() { arty::yaml::read::<File>(&words)?.0.causes } else { Vec::new() },
+            causes: if words.is_file() {
+                arty::yaml::read::<CausesFile>(&words)?.0.causes
+            } else {
+                Vec::new()
+            },
             signatures: if measured.is_file() { Signatures::load(&measured)? } else { Signatures::default() },
         };
         for cause in &catalogue.causes {
@@ -117,13 +121,13 @@ impl Catalogue {
     /// At most [`MAX_CAUSES`] likely causes, the likeliest first. None for a submission whose checks all pass.
     /// `starter` is the text of the assignment's starting file, empty if it has none.
     pub fn diagnose(&self, report: &Report, source: &str, starter: &str) -> Vec<Diagnosis> {
-        let wrong = report.checks.iter().any(CheckResult::is_lacking);
+        let wrong = report.checks.iter().any(CheckResult::costs_points);
         if !wrong && report.submission.build_failure.is_none() {
             return Vec::new();
         }
         let mut found = direct::causes(report, source, starter);
         let explained = |technique: Technique| found.iter().any(|direct| direct.explains(technique));
-        let vector = Vector::of(report).without(explained);
+        let vector = ObservationVector::of(report).without(explained);
         if found.iter().all(|direct| !direct.is_everything()) {
             found.extend(self.compared(report, &vector));
         }
@@ -142,12 +146,12 @@ impl Catalogue {
         found.into_iter().map(|found| found.diagnosis).collect()
     }
 
-    fn compared(&self, report: &Report, vector: &Vector) -> Vec<Found> {
+    fn compared(&self, report: &Report, vector: &ObservationVector) -> Vec<ExplainedCause> {
         let found = |candidate: &rank::Candidate<'_>| {
             let Cause { id, title, hint, .. } = candidate.cause.clone();
             let seen = seen::seen(self, report, vector, candidate);
             let cause = report::Cause::Known { id, title, hint };
-            Found {
+            ExplainedCause {
                 diagnosis: Diagnosis { cause, confidence: candidate.confidence, seen },
                 explains: Vec::new(),
             }
@@ -156,8 +160,8 @@ impl Catalogue {
     }
 
     /// The names of the causes that a vector of observations is diagnosed with, as [`Self::diagnose`] would.
-    pub fn names(&self, vector: &Vector) -> Vec<&str> {
-        if vector.is_right() {
+    pub fn names(&self, vector: &ObservationVector) -> Vec<&str> {
+        if vector.all_pass() {
             return Vec::new();
         }
         let names: Vec<&str> = rank::rank(self, vector)
@@ -170,13 +174,13 @@ impl Catalogue {
 }
 
 /// A cause, and what of the submission needs no other.
-struct Found {
+struct ExplainedCause {
     diagnosis: Diagnosis,
     /// The techniques whose failures it explains.
     explains: Vec<Technique>,
 }
 
-impl Found {
+impl ExplainedCause {
     fn explains(&self, technique: Technique) -> bool {
         self.explains.contains(&technique)
     }

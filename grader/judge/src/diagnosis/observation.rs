@@ -11,7 +11,7 @@ use crate::checks::{Quantity, of_kind};
 
 /// How a check ended, as far as it matters for the cause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum State {
+pub enum CheckState {
     /// It is right.
     Pass,
     /// Too noisy to tell.
@@ -26,15 +26,15 @@ pub enum State {
     Crash,
 }
 
-impl State {
+impl CheckState {
     /// All of them, each with the letter that stands for it in files.
-    pub(super) const LETTERS: [(State, char); 6] = [
-        (State::Pass, '.'),
-        (State::Unclear, '?'),
-        (State::Wrong, 'F'),
-        (State::Numerics, 'N'),
-        (State::Timeout, 'T'),
-        (State::Crash, 'C'),
+    pub(super) const LETTERS: [(CheckState, char); 6] = [
+        (CheckState::Pass, '.'),
+        (CheckState::Unclear, '?'),
+        (CheckState::Wrong, 'F'),
+        (CheckState::Numerics, 'N'),
+        (CheckState::Timeout, 'T'),
+        (CheckState::Crash, 'C'),
     ];
 
     fn of(check: &CheckResult) -> Option<Self> {
@@ -56,34 +56,34 @@ pub struct Number(pub f64, pub f64);
 
 /// What one check saw.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Seen {
+pub struct CheckObservations {
     /// How it ended.
-    pub state: State,
+    pub state: CheckState,
     /// Its measurements; none where it passed.
     pub numbers: BTreeMap<Quantity, Number>,
 }
 
 /// What all checks of a report saw.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Vector(pub BTreeMap<CheckId, Seen>);
+pub struct ObservationVector(pub BTreeMap<CheckId, CheckObservations>);
 
-impl Vector {
+impl ObservationVector {
     /// The checks of a report that were run, but for those whose scenes are other ones with each seed.
     pub fn of(report: &Report) -> Self {
         let seen = |check: &CheckResult| {
             if check.id.kind == CheckKind::HiddenVariants {
                 return None;
             }
-            let state = State::of(check)?;
-            let numbers = if state == State::Pass { BTreeMap::new() } else { numbers(check) };
-            Some((check.id.clone(), Seen { state, numbers }))
+            let state = CheckState::of(check)?;
+            let numbers = if state == CheckState::Pass { BTreeMap::new() } else { numbers(check) };
+            Some((check.id.clone(), CheckObservations { state, numbers }))
         };
         Self(report.checks.iter().filter_map(seen).collect())
     }
 
     /// True if no check has anything to complain of.
-    pub fn is_right(&self) -> bool {
-        self.0.values().all(|seen| seen.state == State::Pass)
+    pub fn all_pass(&self) -> bool {
+        self.0.values().all(|seen| seen.state == CheckState::Pass)
     }
 
     /// What a grade would have seen that stops in each task after so many checks that do not pass. `order` has task and
@@ -94,7 +94,7 @@ impl Vector {
         for (task, check) in order {
             let count = failed.entry(task).or_default();
             if let Some(seen) = self.0.get(check).filter(|_| *count < failures) {
-                *count += usize::from(seen.state != State::Pass);
+                *count += usize::from(seen.state != CheckState::Pass);
                 stopped.0.insert(check.clone(), seen.clone());
             }
         }

@@ -30,14 +30,15 @@ pub struct Answer {
     /// The relative error that single precision and the scene itself explain.
     pub tolerance: f64,
     /// True if points depend on it.
-    pub judged: bool,
+    #[serde(rename = "judged")]
+    pub is_graded: bool,
     /// Techniques that cannot show it, with the reason.
     #[serde(default)]
     pub left_out: BTreeMap<Technique, String>,
 }
 
 /// A scene of the table, read.
-pub struct Extreme {
+pub struct ExtremeScene {
     /// What it must show.
     pub answer: Answer,
     /// Its content.
@@ -48,7 +49,7 @@ pub struct Extreme {
 ///
 /// # Errors
 /// The first thing in these files that is wrong.
-pub fn load(workspace: &Workspace) -> Result<Vec<Extreme>> {
+pub fn load(workspace: &Workspace) -> Result<Vec<ExtremeScene>> {
     let path = workspace.extreme_answers();
     let (answers, _) = arty::yaml::read::<Vec<Answer>>(&path)?;
     for answer in &answers {
@@ -64,7 +65,7 @@ pub fn load(workspace: &Workspace) -> Result<Vec<Extreme>> {
     }
     let load = |answer: Answer| {
         let description = arty::scene::file::load(&workspace.extreme_scene_file(&answer.scene))?.description;
-        Ok(Extreme { answer, description })
+        Ok(ExtremeScene { answer, description })
     };
     answers.into_iter().map(load).collect()
 }
@@ -78,7 +79,7 @@ mod tests {
         let extremes =
             load(&Workspace::find().expect("the tests run inside the checkout")).expect("it is sound");
         assert!(extremes.len() > 35);
-        for Extreme { answer, .. } in &extremes {
+        for ExtremeScene { answer, .. } in &extremes {
             assert!(answer.left_out.len() < Technique::ALL.len(), "{}", answer.scene);
             assert!(answer.left_out.values().all(|why| why.len() > 10), "{}", answer.scene);
             assert!(

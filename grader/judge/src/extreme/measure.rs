@@ -4,7 +4,7 @@ use arty::integrator::{Settings, Technique};
 use arty::sampler::batch_seed;
 use host::protocol::{AnomalousSample, RenderJob};
 
-use super::answers::{Answer, Extreme};
+use super::answers::{Answer, ExtremeScene};
 use harness::host_process::HostProcess;
 use harness::job::JobError;
 
@@ -16,11 +16,11 @@ pub const NOISE: f64 = 7.0;
 
 /// How many paths there are in one measurement, at least.
 #[derive(Clone, Copy, Debug)]
-pub struct Effort(pub u64);
+pub struct MinPaths(pub u64);
 
 /// What was measured of one picture.
 #[derive(Clone, Debug, Default)]
-pub struct Measured {
+pub struct Measurement {
     /// The mean over all pixels and channels.
     pub mean: f64,
     /// Its standard error.
@@ -37,7 +37,7 @@ pub struct Measured {
     pub seconds: f64,
 }
 
-impl Measured {
+impl Measurement {
     /// The difference from the true value, relative to it; absolute where that is 0.
     pub fn error(&self, truth: f64) -> f64 {
         relative(self.mean - truth, truth)
@@ -67,9 +67,9 @@ pub fn measure(
     scene: u32,
     settings: Settings,
     size: [u32; 2],
-    Effort(paths): Effort,
+    MinPaths(paths): MinPaths,
     seed: u64,
-) -> Result<Measured, JobError> {
+) -> Result<Measurement, JobError> {
     let pixels = u64::from(size[0]) * u64::from(size[1]);
     let samples = paths.div_ceil(pixels * BATCHES);
     let seeds = (0..BATCHES).map(|batch| batch_seed(seed, batch)).collect();
@@ -79,7 +79,7 @@ pub fn measure(
     };
     let means: Vec<f64> = rendered.batches.iter().map(mean_of).collect();
     let (mean, standard_error) = mean_and_error(&means);
-    Ok(Measured {
+    Ok(Measurement {
         mean,
         standard_error,
         non_finite: rendered.non_finite,
@@ -94,7 +94,7 @@ pub fn measure(
 ///
 /// Numbers are divided by the largest first, so that squares of 1e30 and of 1e-30 stay what they are.
 pub fn mean_and_error(values: &[f64]) -> (f64, f64) {
-    let scale = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    let scale = values.iter().fold(0.0, |max: f64, value| max.max(value.abs()));
     if scale == 0.0 || values.is_empty() {
         return (0.0, 0.0);
     }
@@ -106,7 +106,7 @@ pub fn mean_and_error(values: &[f64]) -> (f64, f64) {
 
 /// A scene of the table as a program shows it.
 #[derive(Clone, Debug)]
-pub struct Finding {
+pub struct ExtremeSceneResult {
     /// The scene.
     pub scene: String,
     /// How it was rendered.
@@ -116,14 +116,14 @@ pub struct Finding {
     /// What it should show.
     pub truth: f64,
     /// What it shows.
-    pub measured: Measured,
+    pub measured: Measurement,
     /// The relative error that rounding and noise explain.
     pub allowed: f64,
     /// True if points depend on it.
-    pub judged: bool,
+    pub is_graded: bool,
 }
 
-impl Finding {
+impl ExtremeSceneResult {
     /// True if the picture is right within the tolerance and what noise explains, and all samples are radiance.
     pub fn is_right(&self) -> bool {
         self.measured.is_clean() && self.measured.error(self.truth).abs() <= self.allowed
@@ -134,16 +134,16 @@ impl Finding {
 ///
 /// # Errors
 /// What is not the program's doing.
-pub fn findings(
+pub fn measure_all(
     process: &mut HostProcess,
-    extremes: &[Extreme],
+    extremes: &[ExtremeScene],
     technique: Technique,
-    effort: Effort,
+    effort: MinPaths,
     seed: u64,
     mut wanted: impl FnMut(&Answer) -> bool,
-) -> Result<Vec<Finding>, JobError> {
-    let mut findings: Vec<Finding> = Vec::new();
-    for Extreme { answer, description } in extremes {
+) -> Result<Vec<ExtremeSceneResult>, JobError> {
+    let mut findings: Vec<ExtremeSceneResult> = Vec::new();
+    for ExtremeScene { answer, description } in extremes {
         if answer.left_out.contains_key(&technique) || !wanted(answer) {
             continue;
         }
@@ -155,14 +155,14 @@ pub fn findings(
         let truth = answer.radiance.or(other).unwrap_or(measured.mean);
         // The same scene elsewhere takes the same random numbers, so that noise explains nothing.
         let noise = if answer.radiance.is_some() { measured.noise(truth) } else { 0.0 };
-        findings.push(Finding {
+        findings.push(ExtremeSceneResult {
             scene: answer.scene.clone(),
             settings,
             size: answer.size,
             truth,
             measured,
             allowed: answer.tolerance + noise,
-            judged: answer.judged,
+            is_graded: answer.is_graded,
         });
     }
     Ok(findings)
@@ -185,14 +185,14 @@ mod tests {
 
     #[test]
     fn a_wrong_mean_and_a_sample_that_is_no_radiance_are_not_right() {
-        let finding = |mean, allowed, negative| Finding {
+        let finding = |mean, allowed, negative| ExtremeSceneResult {
             scene: String::new(),
             settings: Settings { technique: Technique::Nee, max_bounces: 1 },
             size: [1, 1],
             truth: 1e-20,
-            measured: Measured { mean, negative, ..Measured::default() },
+            measured: Measurement { mean, negative, ..Measurement::default() },
             allowed,
-            judged: true,
+            is_graded: true,
         };
         assert!(finding(1.0005e-20, 1e-3, 0).is_right());
         assert!(!finding(1.01e-20, 1e-3, 0).is_right());

@@ -19,13 +19,13 @@ pub(super) fn load_scenes(
 ) -> Result<BTreeMap<String, SceneWithReference>> {
     let mut scenes = BTreeMap::new();
     let is_staff = workspace.solution_file().is_file();
-    let is_elsewhere = |scene: &str| {
+    let is_missing = |scene: &str| {
         !is_staff
             && Visibility::of_scene(scene) == Visibility::StaffOnly
             && !workspace.scene_file(scene).exists()
     };
     for (_, spec) in selected.iter().filter(|(_, spec)| spec.check.needs_scene()) {
-        if !(scenes.contains_key(&spec.scene) || is_elsewhere(&spec.scene)) {
+        if !(scenes.contains_key(&spec.scene) || is_missing(&spec.scene)) {
             scenes.insert(spec.scene.clone(), load_scene(workspace, &spec.scene)?);
         }
     }

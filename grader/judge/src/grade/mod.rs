@@ -168,7 +168,7 @@ impl Grader {
         submission: &Submission,
         on_check: impl FnMut(&CheckResult) + Send,
     ) -> Result<Report> {
-        Ok(self.judge(submission, None, on_check)?.0)
+        Ok(self.grade_or_refuse(submission, None, on_check)?.0)
     }
 
     /// The same, and the program that was graded, unless it does not compile.
@@ -180,7 +180,7 @@ impl Grader {
         submission: &Submission,
         on_check: impl FnMut(&CheckResult) + Send,
     ) -> Result<(Report, Option<SubmissionProgram>)> {
-        self.judge(submission, None, on_check)
+        self.grade_or_refuse(submission, None, on_check)
     }
 
     /// The report on a submission in which there is nothing to grade: no points, and why.
@@ -189,10 +189,10 @@ impl Grader {
     /// None that a submission could cause.
     pub fn refuse(&self, path: &Path, refusal: &IntakeFinding) -> Result<Report> {
         let nothing = Submission { path: path.to_owned(), source: String::new() };
-        Ok(self.judge(&nothing, Some(refusal), |_| {})?.0)
+        Ok(self.grade_or_refuse(&nothing, Some(refusal), |_| {})?.0)
     }
 
-    fn judge(
+    fn grade_or_refuse(
         &self,
         submission: &Submission,
         refusal: Option<&IntakeFinding>,
@@ -209,16 +209,16 @@ impl Grader {
         let build = start.elapsed().as_secs_f64();
 
         let run_start = Instant::now();
-        let mut ran = self.before_running(submission);
+        let mut results = self.initial_results(submission);
         if let Ok(program) = &built {
-            self.run(program, &selected, &mut ran, on_check)?;
+            self.run(program, &selected, &mut results, on_check)?;
         }
         let run = run_start.elapsed().as_secs_f64();
         let (program, build_failure) = match built {
             Ok(program) => (Some(program), None),
             Err(failure) => (None, Some(failure)),
         };
-        let tasks = self.score(&selected, &ran, build_failure.is_some(), refusal.is_some());
+        let tasks = self.score(&selected, &results, build_failure.is_some(), refusal.is_some());
         let total = self.framework_time + start.elapsed().as_secs_f64();
         let mut report = Report {
             schema: SCHEMA.to_owned(),
@@ -233,12 +233,12 @@ impl Grader {
             assignment: self.rubric.assignment.clone(),
             points: self.sum(&tasks),
             tasks,
-            numerics: numerics_of(&ran.checks),
-            checks: ran.checks,
-            skipped: ran.skipped,
+            numerics: numerics_of(&results.checks),
+            checks: results.checks,
+            skipped: results.skipped,
             diagnosis: Vec::new(),
             cost: Cost { framework: self.framework_time, build, run, total },
-            sandbox: ran.sandbox,
+            sandbox: results.sandbox,
             provenance: self.provenance.clone(),
             convergence: None,
             images: Vec::new(),
@@ -248,10 +248,10 @@ impl Grader {
     }
 
     /// What is known of a submission before it runs.
-    fn before_running(&self, submission: &Submission) -> Ran {
+    fn initial_results(&self, submission: &Submission) -> RunResults {
         let possible = Machine::here().layers();
         let sandbox = Sandbox::new(possible, possible, scan(&submission.source));
-        Ran { checks: Vec::new(), skipped: self.skipped.clone(), sandbox }
+        RunResults { checks: Vec::new(), skipped: self.skipped.clone(), sandbox }
     }
 
     /// Runs the checks that mean something for a submission.
@@ -259,12 +259,12 @@ impl Grader {
         &self,
         program: &SubmissionProgram,
         selected: &Selected<'_>,
-        ran: &mut Ran,
+        results: &mut RunResults,
         on_check: impl FnMut(&CheckResult) + Send,
     ) -> Result<()> {
         let host = HostProcess::start(program, self.options.threads)?.layers();
-        ran.sandbox = Sandbox::new(program.layers, host, std::mem::take(&mut ran.sandbox.findings));
-        trial::require(&ran.sandbox, self.options.limits.min_level)?;
+        results.sandbox = Sandbox::new(program.layers, host, std::mem::take(&mut results.sandbox.findings));
+        trial::require(&results.sandbox, self.options.limits.min_level)?;
         let context = GradeContext {
             program,
             oracle: self.oracle.as_ref(),
@@ -279,7 +279,7 @@ impl Grader {
         meaningful.retain(|(_, spec)| {
             let why = plan::why_skipped(spec, self.scenes.get(&spec.scene), self.oracle.is_some());
             let is_meaningful = why.is_none();
-            ran.skipped.extend(why.map(|why| SkippedCheck {
+            results.skipped.extend(why.map(|why| SkippedCheck {
                 kind: spec.check,
                 technique: spec.technique,
                 scene: spec.scene.clone(),
@@ -288,14 +288,14 @@ impl Grader {
             }));
             is_meaningful
         });
-        ran.checks = run::run(&context, &meaningful, on_check)?;
+        results.checks = run::run(&context, &meaningful, on_check)?;
         Ok(())
     }
 
     fn score(
         &self,
         selected: &Selected<'_>,
-        ran: &Ran,
+        results: &RunResults,
         not_compiled: bool,
         refused: bool,
     ) -> Vec<TaskResult> {
@@ -304,8 +304,9 @@ impl Grader {
             (false, true) => Some(TaskState::NotCompiled),
             (false, false) => None,
         };
-        let score = |task| points::score(task, selected, &ran.checks, &ran.skipped, nothing_ran.clone());
-        points::require(&self.rubric, self.rubric.tasks.iter().map(score).collect(), &ran.checks)
+        let score =
+            |task| points::score(task, selected, &results.checks, &results.skipped, nothing_ran.clone());
+        points::require(&self.rubric, self.rubric.tasks.iter().map(score).collect(), &results.checks)
     }
 
     fn sum(&self, tasks: &[TaskResult]) -> Points {
@@ -326,7 +327,7 @@ impl Grader {
 }
 
 /// What running a submission has come to.
-struct Ran {
+struct RunResults {
     checks: Vec<CheckResult>,
     skipped: Vec<SkippedCheck>,
     sandbox: Sandbox,

@@ -92,8 +92,8 @@ pub(super) fn require(
     tasks
 }
 
-/// The check that has already cost a task all of its points, if one has: a required one of its own, or of a task that it
-/// requires.
+/// The check that has already cost a task all of its points, if one has: a required one of its own, or of a task that
+/// it requires.
 pub(super) fn lost_to<'a>(task: &Task, results: &'a [CheckResult]) -> Option<&'a CheckId> {
     let all = std::iter::once(&task.id).chain(&task.requires);
     all.filter_map(|task| missing_required(task, results)).next()

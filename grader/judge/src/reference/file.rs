@@ -26,18 +26,18 @@ const EMISSION_OFF: &str = ".emission-off";
 /// # Errors
 /// If it has no image, or the file cannot be written.
 pub fn save(reference: &Reference, path: &Path) -> Result<()> {
-    let Some(most) = reference.views.values().next_back() else {
+    let Some(last) = reference.views.values().next_back() else {
         return Err(Error::Harness(format!("{}: a reference without an image", path.display())));
     };
-    let mut file = ExrFile::new(&to_image(&most.mean)).with_metadata(SCENE_HASH, &reference.scene_hash);
+    let mut file = ExrFile::new(&to_image(&last.mean)).with_metadata(SCENE_HASH, &reference.scene_hash);
     for (key, value) in &reference.provenance {
         file = file.with_metadata(format!("{PROVENANCE}{key}"), value);
     }
-    for (view, light) in &reference.views {
+    for (view, images) in &reference.views {
         let name = |rest: &str| format!("{}.{rest}", layer_name(view));
-        file = file.with_layer(&name("mean"), &to_image(&light.mean));
-        file = file.with_layer(&name("variance"), &to_image(&light.variance_of_mean));
-        for (technique, moments) in &light.techniques {
+        file = file.with_layer(&name("mean"), &to_image(&images.mean));
+        file = file.with_layer(&name("variance"), &to_image(&images.variance_of_mean));
+        for (technique, moments) in &images.techniques {
             file = file.with_layer(&name(&format!("{technique}.deviation")), &to_image(&moments.deviation));
             file = file.with_layer(&name(&format!("{technique}.skewness")), &to_image(&moments.skewness));
         }
@@ -65,7 +65,7 @@ pub fn load(path: &Path, scene: &str, description: &SceneDescription) -> Result<
     let mut views = BTreeMap::new();
     for view in file.channels.keys().filter_map(|channel| view_of(channel)) {
         let name = |rest: &str| format!("{}.{rest}", layer_name(&view));
-        let mut light = ReferenceView {
+        let mut images = ReferenceView {
             mean: layer(&name("mean")).ok_or_else(broken)?,
             variance_of_mean: layer(&name("variance")).ok_or_else(broken)?,
             techniques: BTreeMap::new(),
@@ -74,13 +74,13 @@ pub fn load(path: &Path, scene: &str, description: &SceneDescription) -> Result<
             let deviation = layer(&name(&format!("{technique}.deviation")));
             let skewness = layer(&name(&format!("{technique}.skewness")));
             if let (Some(deviation), Some(skewness)) = (deviation, skewness) {
-                light.techniques.insert(technique, Moments { deviation, skewness });
+                images.techniques.insert(technique, Moments { deviation, skewness });
             }
         }
-        if !is_sound(&light) {
+        if !is_sound(&images) {
             return Err(broken());
         }
-        views.insert(view, light);
+        views.insert(view, images);
     }
     let provenance = file
         .metadata
@@ -107,12 +107,12 @@ fn view_of(channel: &str) -> Option<View> {
     Some(View { max_bounces: bounces.parse().ok()?, emission_on_hit })
 }
 
-fn is_sound(light: &ReferenceView) -> bool {
+fn is_sound(images: &ReferenceView) -> bool {
     let values = |list: &[[f64; 3]], sound: fn(f64) -> bool| list.iter().flatten().all(|&value| sound(value));
     let not_negative = |value: f64| value.is_finite() && value >= 0.0;
-    values(&light.mean, not_negative)
-        && values(&light.variance_of_mean, not_negative)
-        && light.techniques.values().all(|moments| {
+    values(&images.mean, not_negative)
+        && values(&images.variance_of_mean, not_negative)
+        && images.techniques.values().all(|moments| {
             values(&moments.deviation, not_negative) && values(&moments.skewness, f64::is_finite)
         })
 }
@@ -141,7 +141,7 @@ mod tests {
         let pixels = |value: f64| (0..256).map(|i| [value, f64::from(i), 0.5]).collect::<Vec<_>>();
         let techniques =
             BTreeMap::from([("nee", Moments { deviation: pixels(2.0), skewness: pixels(-1.0) })]);
-        let light = |value| ReferenceView {
+        let images = |value| ReferenceView {
             mean: pixels(value),
             variance_of_mean: pixels(0.25),
             techniques: techniques.clone(),
@@ -149,9 +149,9 @@ mod tests {
         Reference {
             scene_hash: scene(40.0).hash(),
             views: BTreeMap::from([
-                (View { max_bounces: 1, emission_on_hit: EmissionOnHit::On }, light(1.0)),
-                (View { max_bounces: 8, emission_on_hit: EmissionOnHit::Off }, light(4.0)),
-                (View { max_bounces: 8, emission_on_hit: EmissionOnHit::On }, light(8.0)),
+                (View { max_bounces: 1, emission_on_hit: EmissionOnHit::On }, images(1.0)),
+                (View { max_bounces: 8, emission_on_hit: EmissionOnHit::Off }, images(4.0)),
+                (View { max_bounces: 8, emission_on_hit: EmissionOnHit::On }, images(8.0)),
             ]),
             provenance: [("seed", "7"), ("batches", "64"), ("bounces1.technique", "mis")]
                 .map(|(key, value)| (key.to_owned(), value.to_owned()))

@@ -59,15 +59,15 @@ pub fn make(
         let (mean, variance) = mean_and_variance(&batches);
         let count = f64::from(effort.batches);
         let variance_of_mean = variance.into_iter().map(|value| value.map(|value| value / count)).collect();
-        let mut light = ReferenceView { mean, variance_of_mean, techniques: BTreeMap::new() };
+        let mut images = ReferenceView { mean, variance_of_mean, techniques: BTreeMap::new() };
         for &technique in techniques {
             let settings = Settings { technique, max_bounces };
             // Batches of one sample: each "mean" is a sample.
             let samples = renderer.render(SIZE, settings, effort.single_samples, 1, seed ^ 1)?;
-            light.techniques.insert(technique.name(), moments(&samples));
+            images.techniques.insert(technique.name(), moments(&samples));
         }
         provenance.insert(format!("{}.technique", layer_name(&view)), technique.to_string());
-        views.insert(view, light);
+        views.insert(view, images);
     }
     let samples = u64::from(effort.batches) * effort.samples;
     let of_all = [
@@ -95,8 +95,8 @@ pub(super) fn live(
     let count = samples.len() as f64;
     let variance_of_mean = variance.into_iter().map(|value| value.map(|value| value / count)).collect();
     let techniques = BTreeMap::from([(settings.technique.name(), moments(&samples))]);
-    let light = ReferenceView { mean, variance_of_mean, techniques };
-    light
+    let images = ReferenceView { mean, variance_of_mean, techniques };
+    images
         .expected(settings.technique)
         .ok_or_else(|| Error::Harness("the solution's own rendering has no moments".to_owned()))
 }

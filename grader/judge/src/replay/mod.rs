@@ -1,8 +1,8 @@
 //! One path of a submission again, with every call that it made.
 //!
-//! Any path can be computed again from its seed, pixel and sample. The host writes down each call of the submission's code
-//! ([`host::protocol::Call`]); [`vertices`] works out what a path that is weighted by the balance heuristic carries at
-//! each of its vertices.
+//! Any path can be computed again from its seed, pixel and sample. The host writes down each call of the submission's
+//! code ([`host::protocol::Call`]); [`vertices`] works out what a path that is weighted by the balance heuristic
+//! carries at each of its vertices.
 
 mod place;
 mod vertices;
@@ -12,7 +12,7 @@ use arty::scene::SceneDescription;
 use harness::build::SubmissionProgram;
 use harness::host_process::HostProcess;
 use host::protocol::{Call, ReplayJob, Switches};
-use verdict::replay::{Named, Path, ReplayTarget, Step};
+use verdict::replay::{NamedValue, RecordedCall, ReplayTarget, ReplayedPath};
 use verdict::rubric::EmissionOnHit;
 
 use harness::job::JobError;
@@ -28,7 +28,7 @@ pub fn follow(
     program: &SubmissionProgram,
     target: &ReplayTarget,
     description: &SceneDescription,
-) -> Result<Path, JobError> {
+) -> Result<ReplayedPath, JobError> {
     let mut process = HostProcess::start(program, 1)?;
     let scene = process.load(description)?;
     let ReplayTarget { technique, max_bounces, size, seed, pixel, sample, emission_on_hit, .. } = *target;
@@ -36,7 +36,7 @@ pub fn follow(
     let switches = Switches { emission_on_hit: emission_on_hit == EmissionOnHit::On };
     let job = ReplayJob { scene, settings, size, seed, pixel, sample, switches };
     let replayed = process.replay(job)?;
-    Ok(Path {
+    Ok(ReplayedPath {
         radiance: replayed.radiance,
         calls: replayed.calls.into_iter().map(|call| step(call, description)).collect(),
         left_out: replayed.left_out,
@@ -44,7 +44,7 @@ pub fn follow(
 }
 
 /// Puts the material's name in the place of the surface's number.
-fn step(call: Call, description: &SceneDescription) -> Step {
+fn step(call: Call, description: &SceneDescription) -> RecordedCall {
     let number =
         |name: &str| Some(call.got.iter().find(|(other, _)| other == name)?.1.first().copied()? as usize);
     let materials = &description.materials;
@@ -54,13 +54,17 @@ fn step(call: Call, description: &SceneDescription) -> Step {
         let index = surface.checked_sub(first);
         index.and_then(|index| materials.get(index)).map_or("(light)", |material| &material.name).to_owned()
     });
-    let named = |(name, numbers): (String, Vec<f32>)| Named { name, numbers, word: None };
+    let named = |(name, numbers): (String, Vec<f32>)| NamedValue { name, numbers, word: None };
     let got = call.got.into_iter().filter(|(name, _)| name != "surfaces").map(|(name, numbers)| {
         if name == "surface" {
-            Named { name: "material".to_owned(), numbers: Vec::new(), word: material.clone() }
+            NamedValue { name: "material".to_owned(), numbers: Vec::new(), word: material.clone() }
         } else {
-            Named { name, numbers, word: None }
+            NamedValue { name, numbers, word: None }
         }
     });
-    Step { function: call.function, got: got.collect(), given: call.given.into_iter().map(named).collect() }
+    RecordedCall {
+        function: call.function,
+        got: got.collect(),
+        given: call.given.into_iter().map(named).collect(),
+    }
 }

@@ -2,11 +2,11 @@
 
 use arty::integrator::Technique;
 use arty::scene::SceneDescription;
-use verdict::replay::{FoundLight, Path, Step, Vertex};
+use verdict::replay::{FoundLight, RecordedCall, ReplayedPath, Vertex};
 
 /// Reads the vertices off the calls of the solution, of which it is known in which order they come. Densities and
 /// weights are worked out in double precision from what the framework gave.
-pub fn vertices(path: &Path, technique: Technique, description: &SceneDescription) -> Vec<Vertex> {
+pub fn vertices(path: &ReplayedPath, technique: Technique, description: &SceneDescription) -> Vec<Vertex> {
     let lights = light_count(description);
     let mut vertices: Vec<Vertex> = Vec::new();
     let mut throughput = 1.0;
@@ -29,7 +29,7 @@ pub fn vertices(path: &Path, technique: Technique, description: &SceneDescriptio
                 }
             }
             "Light::sample_direct" => {
-                let rest: Vec<&Step> = steps
+                let rest: Vec<&RecordedCall> = steps
                     .clone()
                     .take_while(|step| !matches!(step.function.as_str(), "Bsdf::sample" | "Scene::intersect"))
                     .collect();
@@ -65,7 +65,7 @@ fn squared_distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 fn found_by_hit(
-    step: &Step,
+    step: &RecordedCall,
     technique: Technique,
     last: Option<([f64; 3], f64)>,
     here: [f64; 3],
@@ -90,8 +90,8 @@ fn found_by_hit(
 
 /// `rest` are the calls after the light sample that belong to it.
 fn found_by_sample(
-    step: &Step,
-    rest: &[&Step],
+    step: &RecordedCall,
+    rest: &[&RecordedCall],
     here: [f64; 3],
     lights: f64,
     throughput: f64,

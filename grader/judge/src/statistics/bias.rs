@@ -70,7 +70,7 @@ pub struct Comparison {
     /// What the difference is relative to: the expected mean, with all weights taken as positive.
     pub scale: f64,
     /// Degrees of freedom of the standard error.
-    pub freedom: f64,
+    pub degrees_of_freedom: f64,
     /// False if a correct estimator is so skewed here that the mean of this many samples is not yet close to normal.
     /// Then Chebyshev's inequality takes the place of Student's distribution: it holds for any whose variance is
     /// known.
@@ -105,7 +105,7 @@ impl Comparison {
             difference: mean - expected_mean,
             standard_error: ((spread / count).max(floor / samples) + reference_variance).sqrt(),
             scale,
-            freedom: (count - 1.0).max(1.0),
+            degrees_of_freedom: (count - 1.0).max(1.0),
             // N ≥ 411 γ² makes the tails right at the level of the confirmation.
             normal: samples >= 411.0 * skewness * skewness,
         }
@@ -120,7 +120,7 @@ impl Comparison {
     /// The probability of a `t` at least this large, in either direction, for a correct estimator.
     pub fn p_value(&self) -> f64 {
         let t = self.t();
-        if self.normal { 2.0 * upper_tail(t, self.freedom) } else { (1.0 / (t * t)).min(1.0) }
+        if self.normal { 2.0 * upper_tail(t, self.degrees_of_freedom) } else { (1.0 / (t * t)).min(1.0) }
     }
 
     /// The same, in the direction of the sign of `direction` only.
@@ -129,7 +129,7 @@ impl Comparison {
         if self.difference * direction <= 0.0 {
             1.0
         } else if self.normal {
-            upper_tail(t, self.freedom)
+            upper_tail(t, self.degrees_of_freedom)
         } else {
             1.0 / (1.0 + t * t)
         }
@@ -137,7 +137,7 @@ impl Comparison {
 
     /// How many standard errors are exceeded with probability `tail`, in one direction.
     fn quantile(&self, tail: f64) -> f64 {
-        if self.normal { quantile(1.0 - tail, self.freedom) } else { (1.0 / tail - 1.0).sqrt() }
+        if self.normal { quantile(1.0 - tail, self.degrees_of_freedom) } else { (1.0 / tail - 1.0).sqrt() }
     }
 
     /// Difference relative to [`scale`](Self::scale).
@@ -163,31 +163,32 @@ fn ratio(value: f64, scale: f64) -> f64 {
 }
 
 /// P(T ≥ t) of Student's distribution.
-fn upper_tail(t: f64, freedom: f64) -> f64 {
+fn upper_tail(t: f64, degrees_of_freedom: f64) -> f64 {
     if t.is_infinite() {
         return 0.0; // no spread at all, and yet a difference
     }
-    StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |distribution| distribution.sf(t))
+    StudentsT::new(0.0, 1.0, degrees_of_freedom).map_or(1.0, |distribution| distribution.sf(t))
 }
 
-fn quantile(p: f64, freedom: f64) -> f64 {
-    StudentsT::new(0.0, 1.0, freedom).map_or(f64::INFINITY, |distribution| distribution.inverse_cdf(p))
+fn quantile(p: f64, degrees_of_freedom: f64) -> f64 {
+    StudentsT::new(0.0, 1.0, degrees_of_freedom)
+        .map_or(f64::INFINITY, |distribution| distribution.inverse_cdf(p))
 }
 
 /// The p-value of the smallest of `count` independent p-values (Šidák).
-pub fn smallest_of(count: usize, p: f64) -> f64 {
+pub fn min_p_value(count: usize, p: f64) -> f64 {
     -(count as f64 * (-p.clamp(0.0, 1.0)).ln_1p()).exp_m1()
 }
 
 /// The p-value of many independent p-values at once: the sum of the squares of the normal deviates that are as
 /// unlikely (χ²). It sees what is a little wrong everywhere.
-pub fn all_of(p_values: &[f64]) -> f64 {
+pub fn combined_p_value(p_values: &[f64]) -> f64 {
     let Ok(chi_squared) = ChiSquared::new(p_values.len() as f64) else { return 1.0 };
-    chi_squared.sf(p_values.iter().map(|&p| deviate(p).powi(2)).sum())
+    chi_squared.sf(p_values.iter().map(|&p| normal_deviate(p).powi(2)).sum())
 }
 
-/// The normal deviate, from 0 on, that is as unlikely in either direction. A p-value of 0 would be an infinite one; what
-/// is given then is far enough out.
-pub fn deviate(p: f64) -> f64 {
+/// The normal deviate, from 0 on, that is as unlikely in either direction. A p-value of 0 would be an infinite one;
+/// what is given then is far enough out.
+pub fn normal_deviate(p: f64) -> f64 {
     Normal::new(0.0, 1.0).map_or(0.0, |normal| normal.inverse_cdf(1.0 - 0.5 * p.clamp(1e-15, 1.0)))
 }

@@ -1,9 +1,9 @@
 //! Tests of the grader's own arithmetic at the ends of what numbers can be: right or refused, and never NaN.
 
 use super::batches::Batches;
-use super::bias::{Comparison, Expected, all_of, smallest_of};
+use super::bias::{Comparison, Expected, combined_p_value, min_p_value};
 use super::regions::{pyramid, weighted_image};
-use super::sequential::{Decision, Demand, Judgement, LOOKS, Question, judge};
+use super::sequential::{Decision, Judgement, LOOKS, SampleRequest, SequentialTest, judge};
 
 const SIZE: u32 = 8;
 const PIXELS: usize = (SIZE * SIZE) as usize;
@@ -21,7 +21,7 @@ fn expected(mean: f64, deviation: f64, skewness: f64) -> Expected {
 fn decide(expected: &Expected, mut pixel: impl FnMut(u64, usize) -> f32) -> Judgement {
     let mut regions = pyramid(SIZE, SIZE);
     regions.push(weighted_image(expected));
-    let question = Question {
+    let test = SequentialTest {
         expected,
         regions: &regions,
         decisive: regions.len() - 1,
@@ -30,11 +30,11 @@ fn decide(expected: &Expected, mut pixel: impl FnMut(u64, usize) -> f32) -> Judg
         seed: 1,
         looks: LOOKS.len(),
     };
-    let render = |demand: &Demand| {
+    let render = |request: &SampleRequest| {
         let mut batch = |&seed: &u64| (0..PIXELS).map(|index| [pixel(seed, index); 3]).collect();
-        Ok::<_, ()>(demand.seeds.iter().map(&mut batch).collect())
+        Ok::<_, ()>(request.seeds.iter().map(&mut batch).collect())
     };
-    judge(&question, render).expect("it cannot fail")
+    judge(&test, render).expect("it cannot fail")
 }
 
 /// All numbers of a comparison are numbers; those of an infinite difference may be infinite.
@@ -132,8 +132,8 @@ fn expectations_of_any_magnitude_give_weights_that_are_numbers() {
 fn p_values_stay_between_zero_and_one() {
     for p in [0.0, f64::MIN_POSITIVE, 1e-300, 0.5, 1.0] {
         for count in [1, 64, 100_000] {
-            assert!((0.0..=1.0).contains(&smallest_of(count, p)), "{p:e}, {count}");
-            assert!((0.0..=1.0).contains(&all_of(&vec![p; count.min(64)])), "{p:e}, {count}");
+            assert!((0.0..=1.0).contains(&min_p_value(count, p)), "{p:e}, {count}");
+            assert!((0.0..=1.0).contains(&combined_p_value(&vec![p; count.min(64)])), "{p:e}, {count}");
         }
     }
 }

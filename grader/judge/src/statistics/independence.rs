@@ -53,11 +53,11 @@ pub fn dependence(batches: &Batches, width: u32) -> Dependence {
             .clone()
             .map(|(members, sums)| sums.iter().map(|sum| sum * sum).sum::<f64>() / f64::from(*members))
             .sum();
-        let freedom = larger.count() as f64 * (count as f64 - 1.0);
-        let Ok(distribution) = ChiSquared::new(freedom) else { continue };
+        let degrees_of_freedom = larger.count() as f64 * (count as f64 - 1.0);
+        let Ok(distribution) = ChiSquared::new(degrees_of_freedom) else { continue };
         let p_value = (GROUPS.len() as f64 * distribution.sf(sum)).min(1.0);
         if p_value < worst.p_value {
-            worst = Dependence { p_value, excess: sum / freedom, pixels: group };
+            worst = Dependence { p_value, excess: sum / degrees_of_freedom, pixels: group };
         }
     }
     worst

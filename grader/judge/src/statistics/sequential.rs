@@ -1,17 +1,17 @@
 //! Looking again and again, with more samples each time, until the verdict is clear.
 //!
-//! A difference is first **screened** for at a level that lets one correct submission in a hundred be looked at
-//! twice; what was flagged is **confirmed** on fresh seeds with four times the samples, in the same region and
-//! direction, at a level of 1e-4. Only then is it called a bias. So a correct submission fails about once in a
-//! million: if its noise is like that of the solution, or its own samples show how much worse it is. Rare bright samples
-//! that have not come in any pixel yet are beyond every test.
+//! A difference is first **screened** for at a level that lets one correct submission in a hundred be looked at twice;
+//! what was flagged is **confirmed** on fresh seeds with four times the samples, in the same region and direction, at
+//! a level of 1e-4. Only then is it called a bias. So a correct submission fails about once in a million: if its noise
+//! is like that of the solution, or its own samples show how much worse it is. Rare bright samples that have not come
+//! in any pixel yet are beyond every test.
 
 use arty::sampler::batch_seed;
 
 use verdict::check::{RegionId, RegionKind};
 
 use super::batches::Batches;
-use super::bias::{Comparison, Expected, all_of, deviate, smallest_of};
+use super::bias::{Comparison, Expected, combined_p_value, min_p_value, normal_deviate};
 use super::regions::{LEVELS, Region};
 
 /// How often correct submissions may be flagged by screening, over everything that is looked at in one grade.
@@ -38,7 +38,7 @@ const PASS_CONFIDENCE: f64 = 0.999;
 
 /// Samples that are wanted from the submission.
 #[derive(Clone, Debug)]
-pub struct Demand {
+pub struct SampleRequest {
     /// One per batch.
     pub seeds: Vec<u64>,
     /// Number of the first sample of each pixel.
@@ -79,7 +79,7 @@ pub struct Judgement {
 
 /// What to decide, and how surely.
 #[derive(Clone, Copy, Debug)]
-pub struct Question<'a> {
+pub struct SequentialTest<'a> {
     /// What the image should be.
     pub expected: &'a Expected,
     /// Where to look.
@@ -88,7 +88,7 @@ pub struct Question<'a> {
     pub decisive: usize,
     /// The relative bias of the whole image that must be excluded for a pass.
     pub tolerance: f64,
-    /// The share of [`SCREENING_LEVEL`] that this question may spend.
+    /// The share of [`SCREENING_LEVEL`] that this test may spend.
     pub screening_level: f64,
     /// The seed of everything.
     pub seed: u64,
@@ -96,32 +96,32 @@ pub struct Question<'a> {
     pub looks: usize,
 }
 
-impl Question<'_> {
+impl SequentialTest<'_> {
     /// The level at which one look flags a region.
     fn level_of_a_look(&self) -> f64 {
         self.screening_level / self.looks as f64
     }
 }
 
-/// Asks for samples until the question is decided, or no look is left that could decide it.
+/// Asks for samples until the test is decided, or no look is left that could decide it.
 ///
 /// # Errors
 /// What `render` fails with.
 pub fn judge<E>(
-    question: &Question<'_>,
-    mut render: impl FnMut(&Demand) -> Result<Vec<Vec<[f32; 3]>>, E>,
+    test: &SequentialTest<'_>,
+    mut render: impl FnMut(&SampleRequest) -> Result<Vec<Vec<[f32; 3]>>, E>,
 ) -> Result<Judgement, E> {
-    let pixels = question.expected.mean.len() as u64;
-    let whole = &question.regions[question.decisive];
-    let seeds = seeds(question.seed);
+    let pixels = test.expected.mean.len() as u64;
+    let whole = &test.regions[test.decisive];
+    let seeds = seeds(test.seed);
     let mut batches = Batches::default();
     let mut taken = 0;
     let mut confirmation_samples = 0;
-    for (look, total) in LOOKS.into_iter().take(question.looks).enumerate() {
-        let demand = Demand { seeds: seeds.clone(), first_sample: taken, samples: total - taken };
-        batches.extend(&render(&demand)?, demand.samples);
+    for (look, total) in LOOKS.into_iter().take(test.looks).enumerate() {
+        let request = SampleRequest { seeds: seeds.clone(), first_sample: taken, samples: total - taken };
+        batches.extend(&render(&request)?, request.samples);
         taken = total;
-        let screening = Screening::new(question, &batches);
+        let screening = Screening::new(test, &batches);
         let judgement = |decision, region: &Region, comparison, confirmation_samples| Judgement {
             decision,
             region: region.id,
@@ -131,16 +131,16 @@ pub fn judge<E>(
             samples: (batches.samples_per_pixel() + confirmation_samples) * pixels,
             z: screening.z.clone(),
         };
-        if screening.p_value < question.level_of_a_look() {
-            let demand = Demand {
-                seeds: self::seeds(batch_seed(question.seed, u64::MAX - look as u64)),
+        if screening.p_value < test.level_of_a_look() {
+            let request = SampleRequest {
+                seeds: self::seeds(batch_seed(test.seed, u64::MAX - look as u64)),
                 first_sample: 0,
                 samples: 4 * total,
             };
             let mut fresh = Batches::default();
-            fresh.extend(&render(&demand)?, demand.samples);
+            fresh.extend(&render(&request)?, request.samples);
             confirmation_samples += fresh.samples_per_pixel();
-            let expected = question.expected.with_noise_of(&fresh);
+            let expected = test.expected.with_noise_of(&fresh);
             let comparison = Comparison::new(&fresh, &expected, &screening.suspect);
             let p_value = comparison.one_sided_p_value(screening.suspected_difference);
             if p_value < CONFIRMATION_LEVEL {
@@ -148,13 +148,13 @@ pub fn judge<E>(
             }
         }
         let worst = screening.whole.relative().abs() + screening.whole.relative_margin(PASS_CONFIDENCE);
-        let clear = look >= FIRST_PASS && worst < question.tolerance;
+        let clear = look >= FIRST_PASS && worst < test.tolerance;
         if clear {
             return Ok(judgement(Decision::Unbiased, whole, screening.whole, confirmation_samples));
         }
         let next = look + 1;
-        let is_last = next == question.looks.min(LOOKS.len());
-        if is_last || (next + 1 == LOOKS.len() && !within_reach(worst, question.tolerance)) {
+        let is_last = next == test.looks.min(LOOKS.len());
+        if is_last || (next + 1 == LOOKS.len() && !within_reach(worst, test.tolerance)) {
             return Ok(judgement(Decision::Unclear, whole, screening.whole, confirmation_samples));
         }
     }
@@ -186,9 +186,9 @@ struct Screening {
 }
 
 impl Screening {
-    fn new(question: &Question<'_>, batches: &Batches) -> Self {
-        let regions = question.regions;
-        let expected = question.expected.with_noise_of(batches);
+    fn new(test: &SequentialTest<'_>, batches: &Batches) -> Self {
+        let regions = test.regions;
+        let expected = test.expected.with_noise_of(batches);
         let compare = |region: &Region| Comparison::new(batches, &expected, region);
         let comparisons: Vec<Comparison> = regions.iter().map(compare).collect();
         let p_values: Vec<f64> = comparisons.iter().map(Comparison::p_value).collect();
@@ -198,7 +198,7 @@ impl Screening {
         for level in 0..LEVELS {
             let tried: Vec<usize> = (0..regions.len()).filter(|&i| regions[i].level == level).collect();
             if let Some(&worst) = tried.iter().min_by(|&&a, &&b| p_values[a].total_cmp(&p_values[b])) {
-                let p_value = smallest_of(tried.len(), p_values[worst]);
+                let p_value = min_p_value(tried.len(), p_values[worst]);
                 tests.push((p_value, regions[worst].clone(), comparisons[worst].difference));
             }
         }
@@ -207,17 +207,18 @@ impl Screening {
         let tiles: Vec<usize> = (0..regions.len())
             .filter(|&i| regions[i].level == finest && regions[i].id.kind == RegionKind::Luminance)
             .collect();
-        let z = tiles.iter().map(|&i| deviate(p_values[i]) * comparisons[i].difference.signum()).collect();
+        let z =
+            tiles.iter().map(|&i| normal_deviate(p_values[i]) * comparisons[i].difference.signum()).collect();
         if tiles.len() > 1 {
-            let p_value = all_of(&tiles.iter().map(|&i| p_values[i]).collect::<Vec<_>>());
+            let p_value = combined_p_value(&tiles.iter().map(|&i| p_values[i]).collect::<Vec<_>>());
             tests.push((p_value, pattern(regions, &comparisons, &tiles), 1.0));
         }
 
-        let whole = question.decisive;
+        let whole = test.decisive;
         // The coarsest region that is flagged says most simply what is wrong; without one, the least likely.
         let count = tests.len() as f64;
-        let flagged = |p_value: f64| count * p_value < question.level_of_a_look();
-        let worst = match tests.iter().position(|test| flagged(test.0)) {
+        let flagged = |p_value: f64| count * p_value < test.level_of_a_look();
+        let worst = match tests.iter().position(|(p_value, ..)| flagged(*p_value)) {
             Some(first) => Some(tests.swap_remove(first)),
             None => tests.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)),
         };
@@ -257,11 +258,14 @@ mod tests {
     use arty::sampler::Sampler;
 
     /// Exponentially distributed samples around a mean, as an estimator that is right or wrong by a factor.
-    fn exponential(factor: f64, corner_factor: f64) -> impl FnMut(&Demand) -> Result<Vec<Vec<[f32; 3]>>, ()> {
-        move |demand| {
+    fn exponential(
+        factor: f64,
+        corner_factor: f64,
+    ) -> impl FnMut(&SampleRequest) -> Result<Vec<Vec<[f32; 3]>>, ()> {
+        move |request| {
             let batch = |&seed: &u64| {
                 let pixel = |i: u32| {
-                    let samples = demand.first_sample..demand.first_sample + demand.samples;
+                    let samples = request.first_sample..request.first_sample + request.samples;
                     let sum: f64 = samples
                         .map(|sample| {
                             let u = Sampler::new(seed, (i, 0), sample).next_1d();
@@ -269,11 +273,11 @@ mod tests {
                         })
                         .sum();
                     let factor = if i < 2 { factor * corner_factor } else { factor };
-                    [(factor * sum / demand.samples as f64) as f32; 3]
+                    [(factor * sum / request.samples as f64) as f32; 3]
                 };
                 (0..256).map(pixel).collect()
             };
-            Ok(demand.seeds.iter().map(batch).collect())
+            Ok(request.seeds.iter().map(batch).collect())
         }
     }
 
@@ -285,19 +289,19 @@ mod tests {
             deviation: vec![[(scarcity - 1.0).sqrt(); 3]; 256],
             asymmetry: vec![[scarcity.powf(2.0 / 3.0); 3]; 256],
         };
-        let render = |demand: &Demand| {
+        let render = |request: &SampleRequest| {
             let batch = |&seed: &u64| {
                 let pixel = |i: u32| {
-                    let samples = demand.first_sample..demand.first_sample + demand.samples;
+                    let samples = request.first_sample..request.first_sample + request.samples;
                     let is_bright = |&sample: &u64| {
                         f64::from(Sampler::new(seed, (i, 0), sample).next_1d()) < 1.0 / scarcity
                     };
                     let bright = samples.filter(is_bright).count() as f64;
-                    [(bright * scarcity / demand.samples as f64) as f32; 3]
+                    [(bright * scarcity / request.samples as f64) as f32; 3]
                 };
                 (0..256).map(pixel).collect()
             };
-            Ok::<_, ()>(demand.seeds.iter().map(batch).collect())
+            Ok::<_, ()>(request.seeds.iter().map(batch).collect())
         };
         ask(&expected, tolerance, seed, render)
     }
@@ -316,10 +320,10 @@ mod tests {
         expected: &Expected,
         tolerance: f64,
         seed: u64,
-        render: impl FnMut(&Demand) -> Result<Vec<Vec<[f32; 3]>>, ()>,
+        render: impl FnMut(&SampleRequest) -> Result<Vec<Vec<[f32; 3]>>, ()>,
     ) -> Judgement {
         let regions = pyramid(16, 16);
-        let question = Question {
+        let test = SequentialTest {
             expected,
             regions: &regions,
             decisive: 3,
@@ -328,7 +332,7 @@ mod tests {
             seed,
             looks: LOOKS.len(),
         };
-        judge(&question, render).expect("it cannot fail")
+        judge(&test, render).expect("it cannot fail")
     }
 
     #[test]
@@ -342,11 +346,11 @@ mod tests {
 
     #[test]
     fn a_biased_estimator_is_caught_early_if_the_bias_is_large() {
-        for (factor, most) in [(1.03, 1_000_000), (0.9, 300_000), (2.0, 50_000), (0.0, 50_000)] {
+        for (factor, max_samples) in [(1.03, 1_000_000), (0.9, 300_000), (2.0, 50_000), (0.0, 50_000)] {
             for seed in 0..10 {
                 let judgement = judge_exponential(factor, 1.0, seed);
                 assert_eq!(judgement.decision, Decision::Biased, "× {factor}, seed {seed}: {judgement:?}");
-                assert!(judgement.samples <= most, "× {factor}: {}", judgement.samples);
+                assert!(judgement.samples <= max_samples, "× {factor}: {}", judgement.samples);
             }
         }
     }

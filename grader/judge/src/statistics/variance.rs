@@ -12,7 +12,7 @@ pub struct VarianceRatio {
     /// Its standard error.
     pub error: f64,
     /// Degrees of freedom of that error.
-    pub freedom: f64,
+    pub degrees_of_freedom: f64,
 }
 
 impl VarianceRatio {
@@ -57,7 +57,11 @@ impl VarianceRatio {
         let centre = logs.iter().sum::<f64>() / count as f64;
         let spread: f64 = logs.iter().map(|log| (log - centre).powi(2)).sum();
         let error = (spread * (count as f64 - 1.0) / count as f64).sqrt();
-        (log.is_finite() && error.is_finite()).then_some(Self { log, error, freedom: count as f64 - 1.0 })
+        (log.is_finite() && error.is_finite()).then_some(Self {
+            log,
+            error,
+            degrees_of_freedom: count as f64 - 1.0,
+        })
     }
 
     /// The ratio.
@@ -67,7 +71,7 @@ impl VarianceRatio {
 
     /// What the ratio exceeds, but for an error of the first kind with probability `alpha`.
     pub fn at_least(&self, alpha: f64) -> f64 {
-        let quantile = StudentsT::new(0.0, 1.0, self.freedom)
+        let quantile = StudentsT::new(0.0, 1.0, self.degrees_of_freedom)
             .map_or(f64::INFINITY, |distribution| distribution.inverse_cdf(1.0 - alpha));
         (self.log - quantile * self.error).exp()
     }

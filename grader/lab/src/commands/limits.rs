@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use crate::limits::Measurement;
 use crate::output::create_folder;
 use harness::workspace::Workspace;
-use judge::extreme::measure::Finding;
+use judge::extreme::measure::ExtremeSceneResult;
 use judge::reference::Oracle;
 use verdict::error::Result;
 
@@ -41,7 +41,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     } else {
         print!("{}", measured.summary(COMMAND));
     }
-    let wrong: Vec<&Finding> = measured.findings.iter().filter(|finding| !finding.is_right()).collect();
+    let wrong: Vec<&ExtremeSceneResult> =
+        measured.findings.iter().filter(|finding| !finding.is_right()).collect();
     for finding in &wrong {
         println!("wrong: {} with {}", finding.scene, finding.settings.technique);
     }

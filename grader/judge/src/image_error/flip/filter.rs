@@ -66,7 +66,7 @@ pub(super) const SENSITIVITIES: [Sensitivity; 3] = [
 const WIDEST: f64 = 0.04;
 
 /// Filters a channel for an eye that sees a number of pixels within a degree.
-pub(super) fn see(plane: &Plane, Sensitivity(gaussians): Sensitivity, pixels_per_degree: f64) -> Plane {
+pub(super) fn perceive(plane: &Plane, Sensitivity(gaussians): Sensitivity, pixels_per_degree: f64) -> Plane {
     let radius = (3.0 * (WIDEST / (2.0 * PI * PI)).sqrt() * pixels_per_degree).ceil() as i32;
     let mut total = 0.0;
     let mut sum = vec![0.0; plane.values.len()];

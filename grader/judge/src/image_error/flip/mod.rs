@@ -9,7 +9,7 @@ mod color;
 mod filter;
 
 use color::{from_ycxcz, hyab, luminance, to_hunt_lab, to_ycxcz};
-use filter::{Feature, Plane, SENSITIVITIES, features, see};
+use filter::{Feature, Plane, SENSITIVITIES, features, perceive};
 
 /// Pixels in a degree of what the viewer sees: 0.7 m before a screen 0.7 m wide with 3840 columns.
 pub const PIXELS_PER_DEGREE: f64 = 0.7 * 3840.0 / 0.7 * std::f64::consts::PI / 180.0;
@@ -47,7 +47,7 @@ pub fn hdr_flip(
             pixels.iter().map(|pixel| pixel.map(|value| tone_map(value, exposure))).collect()
         };
         let difference = flip(&shown(picture), &shown(reference), width, height);
-        map.iter_mut().zip(difference).for_each(|(most, value)| *most = most.max(value));
+        map.iter_mut().zip(difference).for_each(|(max, value)| *max = max.max(value));
     }
     let mean = map.iter().sum::<f64>() / count as f64;
     Some(HdrFlip { map, mean, exposures: (first, last, steps) })
@@ -76,9 +76,9 @@ fn exposures(reference: &[[f64; 3]]) -> (f64, f64) {
         .collect();
     values.sort_unstable_by(f64::total_cmp);
     // Half of a picture may be black: no exposure would show that at 0.85.
-    let (median, most) =
+    let (median, max) =
         (quantile_half(&values).max(f64::EPSILON), values[values.len() - 1].max(f64::EPSILON));
-    ((bright / most).log2(), (bright / median).log2())
+    ((bright / max).log2(), (bright / median).log2())
 }
 
 /// The median of a sorted list that is not empty.
@@ -89,7 +89,8 @@ fn quantile_half(sorted: &[f64]) -> f64 {
 
 /// FLIP of two linear pictures with values in [0, 1].
 fn flip(picture: &[[f64; 3]], reference: &[[f64; 3]], width: usize, height: usize) -> Vec<f64> {
-    let (seen, expected) = (Seen::new(picture, width, height), Seen::new(reference, width, height));
+    let (seen, expected) =
+        (PerceivedImage::new(picture, width, height), PerceivedImage::new(reference, width, height));
     let combined = (0..picture.len()).map(|pixel| {
         let difference = |a: &[f64], b: &[f64]| (a[pixel] - b[pixel]).abs();
         let feature =
@@ -101,20 +102,20 @@ fn flip(picture: &[[f64; 3]], reference: &[[f64; 3]], width: usize, height: usiz
 }
 
 /// What an eye makes of a picture.
-struct Seen {
+struct PerceivedImage {
     /// Lab with the Hunt adjustment.
     colors: Vec<[f64; 3]>,
     edges: Vec<f64>,
     points: Vec<f64>,
 }
 
-impl Seen {
+impl PerceivedImage {
     fn new(picture: &[[f64; 3]], width: usize, height: usize) -> Self {
         let opponent: Vec<[f64; 3]> = picture.iter().map(|&color| to_ycxcz(color)).collect();
         let plane = |values: Vec<f64>| Plane { width, height, values };
         let filtered: [Plane; 3] = std::array::from_fn(|channel| {
             let values = opponent.iter().map(|pixel| pixel[channel]).collect();
-            see(&plane(values), SENSITIVITIES[channel], PIXELS_PER_DEGREE)
+            perceive(&plane(values), SENSITIVITIES[channel], PIXELS_PER_DEGREE)
         });
         let color = |pixel: usize| {
             to_hunt_lab(from_ycxcz(std::array::from_fn(|channel| filtered[channel].values[pixel])))
@@ -135,13 +136,13 @@ fn color_difference(a: [f64; 3], b: [f64; 3]) -> f64 {
     const KNEE: f64 = 0.4;
     const SHARE: f64 = 0.95;
     let (green, blue) = (to_hunt_lab([0.0, 1.0, 0.0]), to_hunt_lab([0.0, 0.0, 1.0]));
-    let most = hyab(green, blue).powf(EXPONENT);
-    let knee = KNEE * most;
+    let max = hyab(green, blue).powf(EXPONENT);
+    let knee = KNEE * max;
     let difference = hyab(a, b).powf(EXPONENT);
     if difference < knee {
         difference * SHARE / knee
     } else {
-        SHARE + (difference - knee) / (most - knee) * (1.0 - SHARE)
+        SHARE + (difference - knee) / (max - knee) * (1.0 - SHARE)
     }
 }
 
