@@ -1,4 +1,4 @@
-//! The short version that is part of every grade.
+//! The short measurement that is part of every grade.
 
 use arty::integrator::Technique;
 
@@ -8,17 +8,17 @@ use harness::workspace::Workspace;
 use verdict::convergence::{Convergence, NotMeasured, Role};
 use verdict::error::Result;
 
-/// The two scenes in which the techniques differ most in a short time.
+/// The two scenes in which the techniques differ most in a short run.
 const SCENES: [&str; 2] = ["cornell_box", "veach_mis"];
 
-/// Processor time of all renderings, in seconds.
+/// Processor time budget of all renderings, in seconds.
 const SECONDS: f64 = 1.8;
 
-/// Measures `mis` of a submission beside that of the solution and plain BSDF sampling, in about two seconds. In a
-/// checkout without the solution the submission's own BSDF sampling is all that there is to compare with.
+/// Measures `mis` of a submission beside that of the solution and BSDF sampling, in about two seconds. Without the
+/// solution, only the submission's own BSDF sampling is compared.
 ///
 /// # Errors
-/// What is not the submission's doing.
+/// If the grader itself fails.
 pub fn brief(
     workspace: &Workspace,
     submission: &SubmissionProgram,
@@ -45,7 +45,7 @@ pub fn brief(
             NotMeasured {
                 program: "solution".to_owned(),
                 scene: String::new(),
-                why: "there is no solution in this checkout to compare with".to_owned(),
+                why: "this checkout does not have the solution".to_owned(),
             },
         );
     }

@@ -1,4 +1,4 @@
-//! What errors look like: the same part of a picture by each program, after the same processor time.
+//! Crops that show the error: the same part of a picture by each program, in equal processor time.
 
 use arty::integrator::Settings;
 use arty::sampler::batch_seed;
@@ -15,18 +15,18 @@ use harness::job::apart;
 use harness::workspace::Workspace;
 use verdict::error::Result;
 
-/// Processor time of each rendering, in seconds.
+/// Target processor time of each rendering, in seconds.
 const SECONDS: f64 = 0.25;
 
-/// Width and height of a crop, in pixels, and the steps in which its place is looked for.
+/// Width and height of a crop in pixels, and the grid of candidate positions.
 const CROP: usize = 48;
 const STEP: usize = 8;
 
-/// Renders crops for all panels, where the solution (without one, the first program) has the most error. A program that
-/// does not answer, and a scene without a picture for looking at, is left out.
+/// Renders crops for all panels, at the position where the solution (or without it the first program) has the largest
+/// error. Omits programs that give no valid answer and scenes without a display reference.
 ///
 /// # Errors
-/// What is not a submission's doing.
+/// If the grader itself fails.
 pub fn crops(
     workspace: &Workspace,
     programs: &[MeasuredProgram<'_>],
@@ -51,7 +51,7 @@ fn of_panel(
     let (width, height) = (*width, *height);
     let mut rendered: Vec<(&Curve, u64, Vec<[f64; 3]>)> = Vec::new();
     for curve in &panel.curves {
-        // There is one baseline; what it misses is added to its name.
+        // There is one baseline, whose name in the curve may have a suffix.
         let is_its = |it: &&MeasuredProgram<'_>| {
             it.role == curve.role && (it.role == Role::Baseline || it.name == curve.name)
         };
@@ -102,14 +102,15 @@ fn of_panel(
     Ok(Some(Crops { scene: panel.scene.clone(), technique: panel.technique, seconds: SECONDS, list }))
 }
 
-/// Samples of each of so many pixels for which a program takes [`SECONDS`], by its longest renderings; at least one.
+/// Samples per pixel that take [`SECONDS`] for this many pixels, extrapolated from the longest renderings; at least
+/// one. `None` if the curve has no usable point.
 fn samples(curve: &Curve, pixels: usize) -> Option<u64> {
     let point = curve.points.last().filter(|point| point.seconds > 0.0 && point.samples > 0)?;
     let of_one = point.seconds / (point.samples * u64::from(SIZE.0 * SIZE.1)) as f64;
     Some(((SECONDS / (of_one * pixels as f64)).round() as u64).clamp(1, 1 << 16))
 }
 
-/// The upper left corner of the crop with the most relative squared error.
+/// The upper left corner of the crop with the largest relative squared error.
 fn worst_corner(
     picture: &[[f64; 3]],
     reference: &[[f64; 3]],
@@ -134,7 +135,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_crop_is_where_the_error_is() {
+    fn the_crop_contains_the_largest_error() {
         let reference = vec![[1.0; 3]; 160 * 128];
         let mut picture = reference.clone();
         picture[100 * 160 + 130] = [5.0; 3];

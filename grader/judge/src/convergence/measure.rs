@@ -1,4 +1,4 @@
-//! Having programs render, in turns.
+//! Measuring the curves of several programs, which render in turns.
 
 use std::path::Path;
 
@@ -19,39 +19,40 @@ use verdict::convergence::{Convergence, Curve, NotMeasured, Panel, Role};
 use verdict::error::{Error, Result};
 use verdict::rubric::{EmissionOnHit, View};
 
-/// What is measured.
+/// Options of a convergence measurement.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Scenes by name.
+    /// Names of the scenes.
     pub scenes: Vec<String>,
     /// Techniques of the submissions.
     pub techniques: Vec<Technique>,
-    /// Processor time for all of it, in seconds.
+    /// Processor time budget, in seconds.
     pub seconds: f64,
-    /// The relative MSE to which times are taken; by default what the solution has in renderings of middle length.
+    /// Target relative MSE; by default that of the solution in renderings of middle length.
     pub target: Option<f64>,
-    /// The seed of all random numbers.
+    /// Seed of all random numbers.
     pub seed: u64,
-    /// Threads of each program.
+    /// Number of threads of each program.
     pub threads: usize,
-    /// How many lengths of renderings.
+    /// Number of rendering lengths.
     pub lengths: u32,
 }
 
-/// A program that takes part.
+/// A program that is measured.
 pub struct MeasuredProgram<'a> {
-    /// What it is called.
+    /// Name in tables and plots.
     pub name: String,
-    /// Whose it is; [`Role::Baseline`] renders with plain BSDF sampling only.
+    /// Role of the program; [`Role::Baseline`] renders with BSDF sampling only.
     pub role: Role,
     /// The program.
     pub program: &'a SubmissionProgram,
 }
 
-/// Measures all programs in all scenes. `on_round` is told how much of the work is done, in [0, 1].
+/// Measures all programs in all scenes. `on_round` is called with the fraction of the work that is done, in [0, 1].
 ///
-/// # Errors What is not a submission's doing. Of a submission that crashes or takes too long there is no curve, and
-/// the reason why.
+/// # Errors
+/// If the grader itself fails. A submission that crashes or exceeds its time limit has no curve, and is listed as not
+/// measured.
 pub fn measure(
     workspace: &Workspace,
     programs: &[MeasuredProgram<'_>],
@@ -70,7 +71,7 @@ pub fn measure(
     Ok(convergence)
 }
 
-/// A scene, and what it looks like.
+/// A scene with its reference image.
 struct MeasuredScene {
     name: String,
     description: SceneDescription,
@@ -96,7 +97,7 @@ impl MeasuredScene {
     }
 }
 
-/// The image with all light, at the largest number of bounces.
+/// The view with emission on hit and the largest number of bounces, and that number.
 fn full_view(reference: reference::Reference, path: &Path) -> Result<(u32, ReferenceView)> {
     let all = |(view, image): (View, ReferenceView)| {
         (view.emission_on_hit == EmissionOnHit::On).then_some((view.max_bounces, image))
@@ -106,7 +107,7 @@ fn full_view(reference: reference::Reference, path: &Path) -> Result<(u32, Refer
         .into_iter()
         .rev()
         .find_map(all)
-        .ok_or_else(|| Error::file(path, "there is no image with all light in it"))
+        .ok_or_else(|| Error::file(path, "the reference has no view with emission on hit"))
 }
 
 /// Measures all curves of one scene and adds its panels.
@@ -156,7 +157,7 @@ fn measure_scene(
     }
     for round in 0..ROUNDS {
         for level in 0..options.lengths as usize {
-            // Forwards and backwards in turn, so that a machine that slows down favours nobody.
+            // Alternate the order, so that a machine that slows down favours no program.
             for place in 0..curve_runs.len() {
                 let index = if round % 2 == 0 { place } else { curve_runs.len() - 1 - place };
                 let curve_run = &mut curve_runs[index];
@@ -173,7 +174,7 @@ fn measure_scene(
     Ok(())
 }
 
-/// A curve with all that is needed to compare it with others.
+/// A curve with the replicates that are needed to compare it with others.
 struct MeasuredCurve {
     curve: Curve,
     levels: Vec<PointEstimate>,
@@ -204,7 +205,7 @@ fn evaluate(
         let bias = relative_bias_squared(&renders, truth, options.seed);
         let curve = Curve {
             name: match (*role, scene.point_lights) {
-                // No path hits them by chance, so that this curve must flatten.
+                // BSDF sampling cannot hit point lights, so that this curve flattens.
                 (Role::Baseline, 1..) => format!("{name} (misses point lights)"),
                 _ => name.clone(),
             },

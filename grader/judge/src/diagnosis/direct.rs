@@ -1,4 +1,4 @@
-//! Causes that are seen without comparing anything.
+//! Causes that are found without comparing signatures.
 
 use arty::integrator::Technique;
 use verdict::check::{CheckKind, CheckResult, Evidence, Fault, Reason, WeightForm};
@@ -6,10 +6,10 @@ use verdict::report::{Cause, Diagnosis, Report, SeenIn};
 
 use super::ExplainedCause;
 
-/// The techniques that a submission has to fill in.
+/// The techniques that a submission implements.
 const BOTH: [Technique; 2] = [Technique::Nee, Technique::Mis];
 
-/// Causes that are plain from the report and the source.
+/// Causes that are evident from the report and the source.
 pub(super) fn causes(report: &Report, source: &str, starter: &str) -> Vec<ExplainedCause> {
     if report.submission.build_failure.is_some() {
         let refused = report.submission.refusal.is_some();
@@ -19,7 +19,7 @@ pub(super) fn causes(report: &Report, source: &str, starter: &str) -> Vec<Explai
     let stopped = |reason: Reason| report.checks.iter().filter(move |check| check.reason == reason);
     let mut all = Vec::new();
     if let Some(crashed) = stopped(Reason::Crash).next() {
-        // Where it does not panic, something else may be wrong.
+        // A panic explains no technique: another mistake may be present.
         let cause = if is_todo(crashed) { Cause::TodoLeft } else { Cause::Panics };
         all.push(found(cause, Some(crashed), &[]));
     }
@@ -41,14 +41,14 @@ fn found(cause: Cause, seen: Option<&CheckResult>, explains: &[Technique]) -> Ex
     ExplainedCause { diagnosis: Diagnosis { cause, confidence: 1.0, seen }, explains: explains.to_vec() }
 }
 
-/// True if it came to a macro of the standard library for code that is still to be written: only its message tells.
+/// True if the panic comes from `todo!` or `unimplemented!`, which only its message shows.
 fn is_todo(check: &CheckResult) -> bool {
     let Some(Fault::Panic(message)) = &check.fault else { return false };
     ["not yet implemented", "not implemented"].iter().any(|beginning| message.starts_with(beginning))
 }
 
-/// What can be said where no known mistake fits: that direct light is too bright or too dark by the same factor in all
-/// scenes in which only light samples bring it.
+/// A cause for submissions that no known mistake fits: direct light is wrong by the same factor in all scenes in which
+/// only light samples find it.
 pub(super) fn constant_factor(report: &Report) -> Option<ExplainedCause> {
     let direct = report.checks.iter().filter(|check| {
         check.id.technique == Technique::Nee
@@ -70,13 +70,13 @@ pub(super) fn constant_factor(report: &Report) -> Option<ExplainedCause> {
     })
 }
 
-/// Factors that differ by less are the same.
+/// Relative difference below which two factors count as equal.
 const SAME_FACTOR: f64 = 0.04;
 
-/// Scenes that have to agree.
+/// Minimum number of scenes with the same factor.
 const MIN_SCENES: usize = 4;
 
-/// True if the weights of `mis` were read, and are the same whatever the densities.
+/// True if the weights of `mis` were measured and are constant.
 fn has_constant_weights(report: &Report) -> bool {
     let is_constant = |form: WeightForm| matches!(form, WeightForm::Constant(_));
     report.checks.iter().any(|check| match &check.evidence {
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn what_stops_the_program_is_named() {
+    fn panics_and_timeouts_are_causes() {
         let mut report = report("x");
         report.checks[0].reason = Reason::Crash;
         report.checks[0].fault = Some(Fault::Panic("not yet implemented: the weights (a.rs:1)".to_owned()));
@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_does_not_compile_needs_no_other_cause() {
+    fn a_file_that_does_not_compile_has_no_other_cause() {
         let mut report = report("x");
         let messages = "error[E0425]: cannot find value `x`".to_owned();
         report.submission.build_failure = Some(verdict::submission::BuildFailure { messages, line: Some(7) });
@@ -161,7 +161,7 @@ mod tests {
     const BLOCK: &str = "// TASK 5.1a\n    Rgb::BLACK\n// what to do\n// END 5.1a\n";
 
     #[test]
-    fn only_blocks_without_code_of_ones_own_are_untouched() {
+    fn blocks_with_the_starters_code_only_are_untouched() {
         let everything = Untouched { everything: true, mis: false };
         let mis = Untouched { everything: false, mis: true };
         let nothing = Untouched { everything: false, mis: false };

@@ -1,50 +1,49 @@
-//! How far two observations are apart.
+//! The distance between a report and a signature.
 //!
-//! In principle this is (y − m)ᵀ Σ⁻¹ (y − m) with y what was seen and m the signature. Checks see the same light along
-//! the same paths, so that their numbers are anything but independent; and a student's code is never quite the
-//! variant's. So each check counts once, with the one number that differs most, in units of the measured standard
-//! errors and of a floor ([`Quantity::scale`]) that stands for how much two programs with the same mistake may differ;
-//! and no check counts more than [`MAX_CONTRIBUTION`].
+//! In principle this is (y − m)ᵀ Σ⁻¹ (y − m), where y is the report and m the signature. Since checks observe the same
+//! light along the same paths, their numbers are strongly correlated, and a student's code never equals a variant.
+//! Hence each check counts once, with the number that differs most, in units of the standard errors and of a floor
+//! ([`Quantity::scale`]) for the difference between programs with the same mistake; and no check contributes more than
+//! [`MAX_CONTRIBUTION`].
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::observation::{CheckObservations, CheckState, Number, ObservationVector};
 use crate::checks::Quantity;
 
-/// What a single check can contribute at most: five standard deviations. A check that went astray decides nothing
-/// alone.
+/// Maximum contribution of a single check: five standard deviations. No outlier decides alone.
 pub(super) const MAX_CONTRIBUTION: f64 = 25.0;
 
-/// What it contributes if one side passes where the other is wrong by too little to be sure of.
+/// Minimum contribution of a check that passes on one side only.
 const MIN_FROM_PASS: f64 = 3.0;
 
-/// The same where nothing says by how much it is wrong.
+/// Contribution of a check that passes on one side only, if the size of the error is unknown.
 const UNKNOWN_FROM_PASS: f64 = 14.0;
 
-/// If both are wrong, but not in the same way.
+/// Minimum contribution of a check that fails on both sides for different reasons.
 const DIFFERENT_FAILURE: f64 = 5.0;
 
-/// If the signature ran out of time, and what was seen did not. The other way round nothing is compared: machines
-/// differ.
+/// Contribution of a check that timed out in the signature only. A timeout in the report only is not compared, since
+/// machines differ.
 const SIGNATURE_TIMEOUT: f64 = 6.0;
 
-/// For each scene or change of a scene in which something is wrong, where the other side passes.
+/// Contribution of each place that fails, if the check passes on the other side.
 const PER_PLACE: f64 = 5.0;
 
-/// If what is wrong is wrong in places that have nothing in common.
+/// Contribution of a check that fails at disjoint places.
 const DISJOINT_PLACES: f64 = 6.0;
 
-/// If a number is there on one side only, as exponents are for weights that have a form.
+/// Contribution of a quantity that only one side has, such as the exponents of a weight.
 const MISSING_QUANTITY: f64 = 9.0;
 
-/// How far a report is from a signature.
+/// The distance of a report from a signature.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Distance {
-    /// The sum over all checks that both have.
+    /// Sum of the contributions of all checks that both sides have.
     pub(super) squared: f64,
-    /// How many of these did not pass on both sides.
+    /// Number of these checks that did not pass on both sides.
     pub(super) degrees_of_freedom: u32,
-    /// Of the checks that are wrong in what was seen, the share that the signature has something to say about.
+    /// Share of the report's failed checks that the signature has.
     pub(super) coverage: f64,
 }
 
@@ -76,7 +75,7 @@ impl Distance {
     }
 }
 
-/// What one check contributes, `a` being what was seen and `b` the signature; none if they cannot be compared.
+/// Contribution of one check, where `a` is the report and `b` the signature; `None` if they cannot be compared.
 pub(super) fn check_distance(a: &CheckObservations, b: &CheckObservations) -> Option<f64> {
     use CheckState::{Crash, Numerics, Pass, Timeout, Unclear, Wrong};
     let contribution = match (a.state, b.state) {
@@ -88,7 +87,7 @@ pub(super) fn check_distance(a: &CheckObservations, b: &CheckObservations) -> Op
         (Pass, Unclear) | (Unclear, Pass) => 1.0,
         (Pass, Wrong | Numerics) => distance_from_pass(b),
         (Wrong | Numerics, Pass) => distance_from_pass(a),
-        // Whoever could not tell may have seen the same.
+        // An inconclusive check may have the same error.
         (Unclear, Wrong | Numerics) | (Wrong | Numerics, Unclear) => {
             numbers_apart(&a.numbers, &b.numbers).max(1.0)
         }
@@ -99,7 +98,7 @@ pub(super) fn check_distance(a: &CheckObservations, b: &CheckObservations) -> Op
     Some(contribution.min(MAX_CONTRIBUTION))
 }
 
-/// How far a check that is wrong is from one that passes.
+/// Contribution of a check that fails on one side and passes on the other.
 fn distance_from_pass(wrong: &CheckObservations) -> f64 {
     let mean = wrong.numbers.iter().filter(|(quantity, _)| quantity.is_zero_if_right());
     let in_places = Some(places(&wrong.numbers).len()).filter(|&count| count > 0);
@@ -109,7 +108,7 @@ fn distance_from_pass(wrong: &CheckObservations) -> f64 {
     furthest.map_or(UNKNOWN_FROM_PASS, |furthest| furthest.max(MIN_FROM_PASS))
 }
 
-/// Where something is wrong, for checks that look at several scenes.
+/// The places that fail, for checks with several scenes.
 fn places(numbers: &BTreeMap<Quantity, Number>) -> BTreeSet<&Quantity> {
     numbers.keys().filter(|quantity| matches!(quantity, Quantity::WrongAt(_))).collect()
 }
@@ -124,14 +123,14 @@ fn numbers_apart(a: &BTreeMap<Quantity, Number>, b: &BTreeMap<Quantity, Number>)
         .filter(|quantity| !matches!(quantity, Quantity::WrongAt(_)))
         .map(|quantity| match (a.get(quantity), b.get(quantity)) {
             (Some(a), Some(b)) => squared(quantity, *a, *b),
-            // A mean that is missing is one that could not be told.
+            // The quantity may be missing because it was too noisy.
             _ if quantity.may_be_missing() => 0.0,
             _ => MISSING_QUANTITY,
         })
         .fold(disjoint, f64::max)
 }
 
-/// The difference of two numbers, squared, in units of what it may be.
+/// Squared difference of two numbers in units of its variance.
 fn squared(quantity: &Quantity, a: Number, b: Number) -> f64 {
     let floor = quantity.scale(0.5 * (a.0 + b.0));
     let variance = a.1.powi(2) + b.1.powi(2) + floor.powi(2);
@@ -152,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_factor_is_near_and_another_is_far() {
+    fn equal_factors_are_near_and_different_ones_far() {
         let factor = |factor: f64| seen(CheckState::Wrong, &[(Quantity::Mean, factor.ln())]);
         assert!(check_distance(&factor(2.0), &factor(2.05)).is_some_and(|it| it < 1.0));
         assert!(check_distance(&factor(2.0), &factor(3.0)).is_some_and(|it| it > 4.0));
@@ -160,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn an_error_that_is_barely_seen_is_barely_apart_from_none() {
+    fn a_small_error_is_near_a_pass() {
         let right = seen(CheckState::Pass, &[]);
         assert_eq!(
             check_distance(&right, &seen(CheckState::Wrong, &[(Quantity::Mean, 0.01)])),
@@ -174,14 +173,14 @@ mod tests {
     }
 
     #[test]
-    fn time_that_ran_out_says_little() {
+    fn timeouts_contribute_little() {
         let (late, wrong) = (seen(CheckState::Timeout, &[]), seen(CheckState::Wrong, &[]));
         assert_eq!((check_distance(&late, &wrong), check_distance(&late, &late)), (None, Some(0.0)));
         assert_eq!(check_distance(&wrong, &late), Some(SIGNATURE_TIMEOUT));
     }
 
     #[test]
-    fn places_in_common_bring_two_nearer() {
+    fn common_places_reduce_the_distance() {
         let at = |sizes: &[i32]| {
             let place = |&size: &i32| (Quantity::WrongAt(WrongPlace::Scaled(size)), 1.0);
             seen(CheckState::Wrong, &sizes.iter().map(place).collect::<Vec<_>>())
@@ -192,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn what_only_one_side_has_seen_does_not_count() {
+    fn checks_of_one_side_only_are_ignored() {
         let vector = |ids: &[&str]| {
             let id =
                 |scene: &str| format!("mean-bias/{scene}/nee/1").parse::<CheckId>().expect("it is a name");

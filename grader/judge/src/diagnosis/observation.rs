@@ -1,4 +1,4 @@
-//! What the checks of a report saw, as numbers that can be compared.
+//! The observations of a report's checks, as numbers that can be compared.
 
 use std::collections::BTreeMap;
 
@@ -9,25 +9,25 @@ use verdict::report::Report;
 
 use crate::checks::{Quantity, of_kind};
 
-/// How a check ended, as far as it matters for the cause.
+/// Result of a check, reduced to what matters for the cause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CheckState {
-    /// It is right.
+    /// It passed.
     Pass,
-    /// Too noisy to tell.
+    /// Too noisy to decide.
     Unclear,
-    /// A wrong mean, wrong weights, shared random numbers: what the check is for.
+    /// It failed for the property that it tests, such as the mean or the weights.
     Wrong,
     /// Samples that are not radiance.
     Numerics,
-    /// It took too long.
+    /// It exceeded its time limit.
     Timeout,
-    /// It panicked, died, or answered with what was not asked for.
+    /// The submission panicked, died or violated the protocol.
     Crash,
 }
 
 impl CheckState {
-    /// All of them, each with the letter that stands for it in files.
+    /// All states with their letters in files.
     pub(super) const LETTERS: [(CheckState, char); 6] = [
         (CheckState::Pass, '.'),
         (CheckState::Unclear, '?'),
@@ -50,25 +50,25 @@ impl CheckState {
     }
 }
 
-/// A measured number with its standard error.
+/// A measured value and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Number(pub f64, pub f64);
 
-/// What one check saw.
+/// The observations of one check.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CheckObservations {
-    /// How it ended.
+    /// Result of the check.
     pub state: CheckState,
-    /// Its measurements; none where it passed.
+    /// Measured quantities; empty if it passed.
     pub numbers: BTreeMap<Quantity, Number>,
 }
 
-/// What all checks of a report saw.
+/// The observations of all checks of a report.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ObservationVector(pub BTreeMap<CheckId, CheckObservations>);
 
 impl ObservationVector {
-    /// The checks of a report that were run, but for those whose scenes are other ones with each seed.
+    /// The observations of a report's checks that were run, without `hidden-variants`, whose scenes depend on the seed.
     pub fn of(report: &Report) -> Self {
         let seen = |check: &CheckResult| {
             if check.id.kind == CheckKind::HiddenVariants {
@@ -81,13 +81,13 @@ impl ObservationVector {
         Self(report.checks.iter().filter_map(seen).collect())
     }
 
-    /// True if no check has anything to complain of.
+    /// True if all checks passed.
     pub fn all_pass(&self) -> bool {
         self.0.values().all(|seen| seen.state == CheckState::Pass)
     }
 
-    /// What a grade would have seen that stops in each task after so many checks that do not pass. `order` has task and
-    /// identity of all checks, in the order in which they are run.
+    /// The observations of a grade that stops each task after this many checks that do not pass. `order` lists task and
+    /// identity of all checks in the order in which they are run.
     pub fn stopped_after(&self, order: &[(String, CheckId)], failures: usize) -> Self {
         let mut failed: BTreeMap<&str, usize> = BTreeMap::new();
         let mut stopped = Self::default();
@@ -106,7 +106,7 @@ impl ObservationVector {
         self.clone().without(|other| other != technique)
     }
 
-    /// Without the checks of some techniques.
+    /// Removes the checks of some techniques.
     pub(super) fn without(mut self, is_excluded: impl Fn(Technique) -> bool) -> Self {
         self.0.retain(|id, _| !is_excluded(id.technique));
         self

@@ -1,4 +1,4 @@
-//! Which mistakes look most like what was seen?
+//! Ranking the known mistakes by their distance from a report.
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -8,37 +8,36 @@ use super::distance::Distance;
 use super::observation::{CheckState, ObservationVector};
 use super::{Catalogue, Cause, MAX_CAUSES};
 
-/// A cause whose best fit is less likely than this is none.
+/// Minimum p-value of a cause that fits.
 const MIN_P_VALUE: f64 = 1e-3;
 
-/// The same for a cause that is to explain one technique only: with fewer checks, more fits by chance.
+/// Minimum p-value of a cause for one technique only: with fewer checks, more causes fit by chance.
 const MIN_P_VALUE_ONE_TECHNIQUE: f64 = 0.05;
 
-/// The share of what is wrong that a signature has to say something about.
+/// Minimum share of the failed checks that a signature must cover.
 const MIN_COVERAGE: f64 = 0.4;
 
-/// Numbers of one submission go astray together, so that a difference of distances says this many times less than it
-/// would of independent ones.
+/// The numbers of one submission are correlated: differences of squared distances are divided by this.
 const CORRELATION: f64 = 3.0;
 
-/// Causes that are less likely than this, all in all, are not named.
+/// Minimum confidence of a cause that is reported.
 const MIN_CONFIDENCE: f64 = 0.04;
 
-/// How likely it has to be that one of those that are named is right.
+/// Minimum total confidence of the causes that are reported.
 const MIN_TOTAL_CONFIDENCE: f64 = 0.5;
 
-/// By how much two mistakes have to fit better than one for two to be believed.
+/// Minimum improvement of the squared distance for diagnosing two mistakes instead of one.
 const TWO_CAUSES_PENALTY: f64 = 15.0;
 
-/// A cause that fits.
+/// A cause with its distance from the report.
 #[derive(Clone, Debug)]
 pub(super) struct Candidate<'a> {
     pub(super) cause: &'a Cause,
-    /// The variant of the cause that fits best.
+    /// The variant of the cause with the smallest distance.
     pub(super) variant: &'a str,
-    /// The technique that it was compared in; none if in all.
+    /// The technique that was compared; `None` for all.
     pub(super) technique: Option<Technique>,
-    /// How likely it is among all that are known, in [0, 1].
+    /// Posterior probability among all causes, in [0, 1].
     pub(super) confidence: f64,
     distance: Distance,
 }
@@ -52,8 +51,8 @@ impl Candidate<'_> {
     }
 }
 
-/// The causes that fit, the likeliest first; none if none does. If no single mistake explains everything, one for each
-/// technique may.
+/// The causes that fit, most likely first. If no single cause explains everything, the causes of each technique are
+/// ranked separately and merged.
 pub(super) fn rank<'a>(catalogue: &'a Catalogue, vector: &ObservationVector) -> Vec<Candidate<'a>> {
     let joint = within(catalogue, vector, None);
     let parts: Vec<Vec<Candidate<'a>>> = [Technique::Nee, Technique::Mis]
@@ -74,7 +73,7 @@ pub(super) fn rank<'a>(catalogue: &'a Catalogue, vector: &ObservationVector) -> 
     }
 }
 
-/// All causes by their distance, where there is anything to compare.
+/// All comparable causes, sorted by distance, with their confidences.
 fn within<'a>(
     catalogue: &'a Catalogue,
     vector: &ObservationVector,
@@ -101,13 +100,13 @@ fn within<'a>(
     all
 }
 
-/// True if there is a check that is not right on both sides.
+/// True if some check fails on both sides.
 fn explains_something(vector: &ObservationVector, signature: &ObservationVector) -> bool {
     let mut wrong = vector.0.iter().filter(|(_, seen)| seen.state != CheckState::Pass);
     wrong.any(|(check, _)| signature.0.get(check).is_some_and(|seen| seen.state != CheckState::Pass))
 }
 
-/// The first few, unless so many fit alike that naming these few would be arbitrary.
+/// The first causes of a ranking; empty if so many fit equally well that the selection would be arbitrary.
 fn worth_naming(ranking: Vec<Candidate<'_>>) -> Vec<Candidate<'_>> {
     let worth = |candidate: &Candidate<'_>| candidate.fits() && candidate.confidence >= MIN_CONFIDENCE;
     let named: Vec<Candidate<'_>> = ranking.into_iter().filter(worth).take(MAX_CAUSES).collect();
@@ -115,12 +114,12 @@ fn worth_naming(ranking: Vec<Candidate<'_>>) -> Vec<Candidate<'_>> {
     if together >= MIN_TOTAL_CONFIDENCE { named } else { Vec::new() }
 }
 
-/// True if some cause fits, even if too many do to name any.
+/// True if some cause fits, even if too many fit to report any.
 pub(super) fn something_fits(catalogue: &Catalogue, vector: &ObservationVector) -> bool {
     within(catalogue, vector, None).first().is_some_and(Candidate::fits)
 }
 
-/// The first of each part, then the second ones, and so on; each cause once.
+/// Interleaves rankings: the first of each, then the second of each, and so on, without duplicates.
 fn merge(parts: Vec<Vec<Candidate<'_>>>) -> Vec<Candidate<'_>> {
     let mut merged: Vec<Candidate<'_>> = Vec::new();
     for place in 0..MAX_CAUSES {

@@ -1,4 +1,4 @@
-//! The checks that speak for a cause.
+//! Selecting the checks that are evidence for a cause.
 
 use arty::integrator::Technique;
 use verdict::check::{CheckKind, CheckResult, Verdict};
@@ -9,14 +9,14 @@ use super::observation::{CheckState, ObservationVector};
 use super::rank::Candidate;
 use super::{Catalogue, Cause};
 
-/// How little a check must be apart from the signature to speak for it.
+/// Maximum contribution to the distance of a check that agrees with the signature.
 const MAX_AGREEING_DISTANCE: f64 = 4.0;
 
-/// By how much a check that passes has to tell a cause from others, on average, to be worth naming.
+/// Minimum mean distance from other causes of a passing check that is evidence.
 const MIN_SEPARATION: f64 = 2.0;
 
-/// What was seen that speaks for the candidate and against other causes: a check that is wrong as the candidate would
-/// have it, and, if there is one, a check that passes where others would not.
+/// The evidence for a candidate: a check that fails the way the candidate predicts and, if there is one, a check that
+/// passes although other causes would make it fail.
 pub(super) fn seen(
     catalogue: &Catalogue,
     report: &Report,
@@ -38,7 +38,7 @@ pub(super) fn seen(
         let checks = report.checks.iter().filter(of_technique).filter(of_state);
         let mut scored: Vec<(&CheckResult, f64)> =
             checks.filter_map(|check| Some((check, separation(check)?))).collect();
-        // Of checks that tell nearly as much as the best, the one that is simplest to understand, and of these the
+        // Of the checks with nearly the best separation, take the one that is easiest to understand, and of these the
         // first.
         scored.sort_by(|a, b| b.1.total_cmp(&a.1));
         let (_, most) = *scored.first()?;
@@ -55,10 +55,10 @@ pub(super) fn seen(
     Some(SeenIn { wrong, right })
 }
 
-/// Which share of the most that a check tells is nearly as much.
+/// Share of the best separation that counts as nearly the best.
 const NEARLY_BEST: f64 = 0.6;
 
-/// How hard it is to see what a check's result means. Weights mean little where light samples themselves are wrong.
+/// How hard a result is to understand: 0 is easiest. Weights mean little if light samples are wrong.
 fn effort(check: &CheckResult, nee_is_right: bool) -> u32 {
     let whole = check.mean_test().and_then(|test| test.whole);
     let exact = whole.is_some_and(|whole| whole.relative.abs() > 10.0 * whole.margin);
@@ -76,7 +76,7 @@ fn index_of(report: &Report, check: &CheckResult) -> usize {
     report.checks.iter().position(|other| std::ptr::eq(other, check)).unwrap_or(usize::MAX)
 }
 
-/// How far the check is from other causes, on average.
+/// Mean contribution of the check to the distances of other causes; `None` if no other cause has it.
 fn mean_distance_of_others(
     catalogue: &Catalogue,
     own: &Cause,

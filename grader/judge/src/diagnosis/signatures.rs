@@ -1,8 +1,8 @@
-//! What was measured of variants, and the file that holds it.
+//! Signatures: the observation vectors of graded variants, and their file.
 //!
-//! The file has the names of all checks once, and for each variant and seed a string with one letter a check
-//! (`.` pass, `?` unclear, `F` wrong, `N` samples that are no radiance, `T` out of time, `C` crashed, `-` not run) and
-//! the numbers of those that did not pass.
+//! The file lists the identities of all checks once. For each variant and seed, it has a string with one letter per
+//! check (`.` pass, `?` inconclusive, `F` fail, `N` samples that are not radiance, `T` timeout, `C` crash, `-` not
+//! run) and the numbers of the checks that did not pass.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -14,13 +14,13 @@ use crate::checks::Quantity;
 use verdict::check::CheckId;
 use verdict::error::{Error, Result};
 
-/// The vectors of variants.
+/// The observation vectors of graded variants.
 #[derive(Clone, Debug, Default)]
 pub struct Signatures {
     vectors: BTreeMap<(String, u64), ObservationVector>,
 }
 
-/// A check that was not run.
+/// Letter of a check that was not run.
 const NOT_RUN: char = '-';
 
 #[derive(Serialize, Deserialize)]
@@ -37,36 +37,36 @@ struct SignatureRow {
     variant: String,
     seed: u64,
     states: String,
-    /// By the check's place in the list.
+    /// Numbers of the checks that did not pass, by index of the check.
     numbers: BTreeMap<usize, Vec<(Quantity, Number)>>,
 }
 
 impl Signatures {
-    /// Adds what was measured of a variant with a seed.
+    /// Adds the vector of a variant graded with a seed.
     pub fn insert(&mut self, variant: &str, seed: u64, vector: ObservationVector) {
         self.vectors.insert((variant.to_owned(), seed), vector);
     }
 
-    /// What was measured of a variant, with the first of its seeds.
+    /// The signature of a variant: its vector with the smallest seed. `None` if the variant has not been graded.
     pub fn get(&self, variant: &str) -> Option<&ObservationVector> {
         let mut of_variant = self.vectors.range((variant.to_owned(), 0)..=(variant.to_owned(), u64::MAX));
         of_variant.next().map(|(_, vector)| vector)
     }
 
-    /// All that was measured: variant, seed, vector.
+    /// All vectors, with variant and seed.
     pub fn all(&self) -> impl Iterator<Item = (&str, u64, &ObservationVector)> {
         self.vectors.iter().map(|((variant, seed), vector)| (variant.as_str(), *seed, vector))
     }
 
-    /// True if nothing was measured.
+    /// True if there are no vectors.
     pub fn is_empty(&self) -> bool {
         self.vectors.is_empty()
     }
 
-    /// Reads what [`Self::save`] has written.
+    /// Reads a file written by [`Self::save`].
     ///
     /// # Errors
-    /// If it cannot be read, or is not that.
+    /// If it cannot be read or is malformed.
     pub fn load(path: &Path) -> Result<Self> {
         let blame = |message: String| Error::file(path, message);
         let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
@@ -74,7 +74,7 @@ impl Signatures {
         let mut signatures = Self::default();
         for mut row in file.variants {
             if row.states.chars().count() != file.checks.len() {
-                return Err(blame(format!("{}: not one letter for each check", row.variant)));
+                return Err(blame(format!("{}: `states` must have one letter per check", row.variant)));
             }
             let mut vector = ObservationVector::default();
             for (index, (check, letter)) in file.checks.iter().zip(row.states.chars()).enumerate() {
@@ -83,7 +83,7 @@ impl Signatures {
                 }
                 let known = CheckState::LETTERS.iter().find(|(_, other)| *other == letter);
                 let Some(&(state, _)) = known else {
-                    return Err(blame(format!("{}: the letter `{letter}` means nothing", row.variant)));
+                    return Err(blame(format!("{}: unknown letter `{letter}` in `states`", row.variant)));
                 };
                 let numbers = row.numbers.remove(&index).unwrap_or_default().into_iter().collect();
                 vector.0.insert(check.clone(), CheckObservations { state, numbers });
@@ -93,7 +93,7 @@ impl Signatures {
         Ok(signatures)
     }
 
-    /// Writes them, a line for each variant and seed.
+    /// Writes the vectors, one line per variant and seed. `made_by` is the command that made them.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -138,7 +138,7 @@ fn row(variant: &str, seed: u64, vector: &ObservationVector, checks: &[CheckId])
     }
 }
 
-/// More digits than these mean nothing.
+/// Rounds to the digits that are significant.
 fn rounded(Number(value, error): Number) -> Number {
     let round = |value: f64| (value * 1e4).round() / 1e4;
     Number(round(value), round(error))

@@ -1,4 +1,4 @@
-//! The mean of one picture, with its error and with what is no radiance in it.
+//! Measuring the mean of one picture, its standard error and the samples that are not radiance.
 
 use arty::integrator::{Settings, Technique};
 use arty::sampler::batch_seed;
@@ -8,42 +8,43 @@ use super::answers::{Answer, ExtremeScene};
 use harness::host_process::HostProcess;
 use harness::job::JobError;
 
-/// Independent renderings.
+/// Number of batches.
 const BATCHES: u64 = 32;
 
-/// Standard errors that are noise. With 31 degrees of freedom one mean is beyond them once in 50 million times.
+/// Number of standard errors that count as noise. With 31 degrees of freedom, a mean exceeds it once in 50 million
+/// times.
 pub const NOISE: f64 = 7.0;
 
-/// How many paths there are in one measurement, at least.
+/// Minimum number of paths of one measurement.
 #[derive(Clone, Copy, Debug)]
 pub struct MinPaths(pub u64);
 
-/// What was measured of one picture.
+/// The measurement of one picture.
 #[derive(Clone, Debug, Default)]
 pub struct Measurement {
-    /// The mean over all pixels and channels.
+    /// Mean over all pixels and channels.
     pub mean: f64,
-    /// Its standard error.
+    /// Standard error of `mean`.
     pub standard_error: f64,
-    /// Samples that were NaN or infinite; they are black in the mean.
+    /// Number of samples that were NaN or infinite. They count as black in the mean.
     pub non_finite: u64,
-    /// Samples that were negative.
+    /// Number of samples that were negative.
     pub negative: u64,
-    /// The first of either kind.
+    /// The first such sample.
     pub first: Option<AnomalousSample>,
-    /// Paths traced.
+    /// Number of paths traced.
     pub paths: u64,
-    /// Processor time for all of them, in seconds.
+    /// Processor time of all paths, in seconds.
     pub seconds: f64,
 }
 
 impl Measurement {
-    /// The difference from the true value, relative to it; absolute where that is 0.
+    /// Error of the mean relative to the exact mean; absolute if that is 0.
     pub fn error(&self, truth: f64) -> f64 {
         relative(self.mean - truth, truth)
     }
 
-    /// The error that noise alone would explain, relative to the true value.
+    /// Error that noise explains, relative to the exact mean; absolute if that is 0.
     pub fn noise(&self, truth: f64) -> f64 {
         relative(NOISE * self.standard_error, truth)
     }
@@ -58,10 +59,10 @@ fn relative(value: f64, truth: f64) -> f64 {
     if truth == 0.0 { value } else { value / truth.abs() }
 }
 
-/// Renders a scene that the process has loaded.
+/// Measures a scene that the process has loaded.
 ///
 /// # Errors
-/// What is not the program's doing.
+/// If the program gives no valid answer, or the grader itself fails.
 pub fn measure(
     process: &mut HostProcess,
     scene: u32,
@@ -92,7 +93,7 @@ pub fn measure(
 
 /// Mean and standard error of some numbers.
 ///
-/// Numbers are divided by the largest first, so that squares of 1e30 and of 1e-30 stay what they are.
+/// The numbers are scaled by the largest, so that squares of numbers such as 1e300 neither overflow nor underflow.
 pub fn mean_and_error(values: &[f64]) -> (f64, f64) {
     let scale = values.iter().fold(0.0, |max: f64, value| max.max(value.abs()));
     if scale == 0.0 || values.is_empty() {
@@ -104,36 +105,36 @@ pub fn mean_and_error(values: &[f64]) -> (f64, f64) {
     (scale * mean, scale * (squares / (count - 1.0).max(1.0) / count).sqrt())
 }
 
-/// A scene of the table as a program shows it.
+/// A program's result in an extreme scene.
 #[derive(Clone, Debug)]
 pub struct ExtremeSceneResult {
-    /// The scene.
+    /// Name of the scene.
     pub scene: String,
-    /// How it was rendered.
+    /// Settings of the path tracer.
     pub settings: Settings,
     /// Width and height of the picture.
     pub size: [u32; 2],
-    /// What it should show.
+    /// Exact mean.
     pub truth: f64,
-    /// What it shows.
+    /// Measured mean.
     pub measured: Measurement,
-    /// The relative error that rounding and noise explain.
+    /// Relative error that rounding and noise explain.
     pub allowed: f64,
-    /// True if points depend on it.
+    /// True if failures cost points.
     pub is_graded: bool,
 }
 
 impl ExtremeSceneResult {
-    /// True if the picture is right within the tolerance and what noise explains, and all samples are radiance.
+    /// True if the error is explained by rounding and noise, and all samples are radiance.
     pub fn is_right(&self) -> bool {
         self.measured.is_clean() && self.measured.error(self.truth).abs() <= self.allowed
     }
 }
 
-/// Renders the scenes of the table with a technique; those are left out that the technique cannot show.
+/// Measures the wanted extreme scenes that a technique can render.
 ///
 /// # Errors
-/// What is not the program's doing.
+/// If the program gives no valid answer, or the grader itself fails.
 pub fn measure_all(
     process: &mut HostProcess,
     extremes: &[ExtremeScene],
@@ -153,7 +154,7 @@ pub fn measure_all(
         let compared = |name: &String| findings.iter().find(|finding| finding.scene == *name);
         let other = answer.same_as.as_ref().and_then(compared).map(|finding| finding.measured.mean);
         let truth = answer.radiance.or(other).unwrap_or(measured.mean);
-        // The same scene elsewhere takes the same random numbers, so that noise explains nothing.
+        // A translated scene uses the same random numbers, so that noise explains no difference.
         let noise = if answer.radiance.is_some() { measured.noise(truth) } else { 0.0 };
         findings.push(ExtremeSceneResult {
             scene: answer.scene.clone(),
@@ -173,7 +174,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn means_of_any_magnitude_have_an_error() {
+    fn means_of_any_magnitude_have_a_standard_error() {
         for scale in [1e-300, 1e-30, 1.0, 1e30, 1e300] {
             let (mean, error) = mean_and_error(&[scale, 3.0 * scale]);
             assert!((mean / scale - 2.0).abs() < 1e-12 && (error / scale - 1.0).abs() < 1e-12, "{scale}");
@@ -184,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_mean_and_a_sample_that_is_no_radiance_are_not_right() {
+    fn wrong_means_and_samples_that_are_not_radiance_fail() {
         let finding = |mean, allowed, negative| ExtremeSceneResult {
             scene: String::new(),
             settings: Settings { technique: Technique::Nee, max_bounces: 1 },

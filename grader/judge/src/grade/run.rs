@@ -1,4 +1,4 @@
-//! Running the checks of a grade, several side by side.
+//! Running the checks of a grade in parallel.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -9,18 +9,18 @@ use crate::checks::{GradeContext, out_of_time, skipped};
 use verdict::check::{CheckResult, Reason};
 use verdict::error::{Error, Result};
 
-/// Checks at a time. Each one's process has all the threads of the grade, so that the last to end leaves no core idle;
-/// more at a time would only wait for each other.
+/// Maximum number of checks in parallel. Each has all threads of the grade, so that the last one leaves no core idle;
+/// more would only compete with each other.
 const MAX_CONCURRENT: usize = 4;
 
-/// Runs checks, and gives their results in the order in which they were named. `on_check` is told of each as it ends.
+/// Runs checks and returns their results in the given order. `on_check` is called after each check.
 ///
-/// Required checks come first. A task that has lost all of its points by them gets only short looks from then on: there
-/// is nothing to be won any more, and what is wrong mostly shows at once. Checks that go further than known scenes are
-/// skipped there. Which tasks those are depends on verdicts alone, not on how many checks run at a time.
+/// Required checks run first. If one has cost a task all of its points, the other checks of the task cannot affect the
+/// points: they get short looks, which show most mistakes, and checks that test generalisation are skipped. Which tasks
+/// these are depends only on verdicts, not on the number of checks in parallel.
 ///
 /// # Errors
-/// What is not the submission's doing.
+/// If the grader itself fails.
 pub(super) fn run(
     context: &GradeContext<'_>,
     selected: &Selected<'_>,
@@ -48,7 +48,7 @@ pub(super) fn run(
     Ok(results.into_iter().map(|(_, result)| result).collect())
 }
 
-/// Does things one after the other on each of several threads, and stops early at an error.
+/// Maps `one` over `things` on several threads, in no particular order, and stops at the first error.
 fn in_parallel<T: Sync, R: Send>(
     threads: usize,
     things: &[T],
@@ -78,8 +78,8 @@ fn in_parallel<T: Sync, R: Send>(
     }
 }
 
-/// How long a submission is waited for: one scene may be too much for it although it is right in others, but nobody
-/// waits for one that never ends.
+/// Counts timeouts. A submission may be too slow in one scene and right in others, but the grade gives up on one that
+/// never finishes.
 #[derive(Default)]
 struct TimeoutTracker {
     late: AtomicUsize,
@@ -96,7 +96,7 @@ impl TimeoutTracker {
         }
     }
 
-    /// True if no more checks are worth their time.
+    /// True after two timeouts in a row or four in total: the remaining checks are not run.
     fn give_up(&self) -> bool {
         self.late_in_a_row.load(Ordering::Relaxed) >= 2 || self.late.load(Ordering::Relaxed) >= 4
     }
@@ -108,7 +108,7 @@ mod tests {
     use verdict::sample;
 
     #[test]
-    fn all_is_done_once_and_an_error_ends_it() {
+    fn everything_is_done_once_and_an_error_stops_the_rest() {
         let things: Vec<usize> = (0..100).collect();
         let mut done = in_parallel(3, &things, |&thing| Ok(2 * thing)).expect("nothing fails");
         done.sort_unstable();
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn nobody_waits_for_a_submission_that_never_ends() {
+    fn a_submission_that_never_finishes_is_given_up() {
         let check = |reason| CheckResult { reason, ..sample::report("").checks[0].clone() };
         let after = |reasons: &[Reason]| {
             let timeouts = TimeoutTracker::default();

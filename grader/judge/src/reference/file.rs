@@ -1,8 +1,8 @@
 //! References as EXR files.
 //!
-//! The main picture is the mean at the largest number of bounces, so that any viewer shows the scene. All else is
-//! in layers: `bounces1.mean`, `bounces1.variance` (of the mean), `bounces1.nee.deviation`, `bounces1.nee.skewness`;
-//! `bounces1.emission-off.mean` and so on for next event estimation alone.
+//! The main image is the mean at the largest number of bounces, so that any viewer shows the scene. All other data is
+//! in layers: `bounces1.mean`, `bounces1.variance` (of the mean), `bounces1.nee.deviation`, `bounces1.nee.skewness`,
+//! and `bounces1.emission-off.mean` etc. for views with `emission_on_hit: off`.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -21,13 +21,13 @@ const SCENE_HASH: &str = "arty:scene_hash";
 const PROVENANCE: &str = "arty:";
 const EMISSION_OFF: &str = ".emission-off";
 
-/// Writes a reference. The same reference gives the same bytes.
+/// Writes a reference. Equal references give equal bytes.
 ///
 /// # Errors
-/// If it has no image, or the file cannot be written.
+/// If it has no view, or the file cannot be written.
 pub fn save(reference: &Reference, path: &Path) -> Result<()> {
     let Some(last) = reference.views.values().next_back() else {
-        return Err(Error::Harness(format!("{}: a reference without an image", path.display())));
+        return Err(Error::Harness(format!("{}: the reference has no view", path.display())));
     };
     let mut file = ExrFile::new(&to_image(&last.mean)).with_metadata(SCENE_HASH, &reference.scene_hash);
     for (key, value) in &reference.provenance {
@@ -45,9 +45,12 @@ pub fn save(reference: &Reference, path: &Path) -> Result<()> {
     file.write(path, Precision::Full).map_err(|error| Error::Output(error.to_string()))
 }
 
-/// Reads the reference of a scene, and refuses one that shows another scene than this.
+/// Reads the reference of a scene.
+///
+/// # Errors
+/// If it does not exist, shows another version of the scene, or holds invalid data.
 pub fn load(path: &Path, scene: &str, description: &SceneDescription) -> Result<Reference> {
-    let renew = format!("make it with `cargo lab reference {scene}`");
+    let renew = format!("create it with `cargo lab reference {scene}`");
     if !path.is_file() {
         return Err(Error::file(path, format!("there is no reference for the scene `{scene}`; {renew}")));
     }
@@ -58,7 +61,7 @@ pub fn load(path: &Path, scene: &str, description: &SceneDescription) -> Result<
     }
     if (file.width, file.height) != (SIZE.0 as usize, SIZE.1 as usize) {
         let (width, height) = SIZE;
-        return Err(Error::file(path, format!("not of {width} × {height} pixels; {renew}")));
+        return Err(Error::file(path, format!("the image is not {width} × {height} pixels; {renew}")));
     }
     let layer = |name: &str| file.layer(name).map(|image| from_image(&image));
     let broken = || Error::file(path, format!("a layer is missing or holds invalid numbers; {renew}"));
@@ -91,13 +94,13 @@ pub fn load(path: &Path, scene: &str, description: &SceneDescription) -> Result<
     Ok(Reference { scene_hash, views, provenance })
 }
 
-/// `bounces8`, or `bounces8.emission-off`.
+/// Name of the layers of a view: `bounces8`, or `bounces8.emission-off`.
 pub(super) fn layer_name(view: &View) -> String {
     let emission = if view.emission_on_hit == EmissionOnHit::Off { EMISSION_OFF } else { "" };
     format!("bounces{}{emission}", view.max_bounces)
 }
 
-/// What `bounces8.mean.R` or `bounces8.emission-off.mean.R` shows.
+/// The view of a channel named `bounces8.mean.R` or `bounces8.emission-off.mean.R`; `None` for other channels.
 fn view_of(channel: &str) -> Option<View> {
     let name = channel.strip_prefix("bounces")?.strip_suffix(".mean.R")?;
     let (bounces, emission_on_hit) = match name.strip_suffix(EMISSION_OFF) {
@@ -160,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_saved_is_what_is_loaded() {
+    fn a_reference_round_trips() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let path = folder.path().join("box.exr");
         save(&reference(), &path).expect("it can be saved");
@@ -168,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn two_files_of_one_reference_have_the_same_bytes() {
+    fn equal_references_have_equal_bytes() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let bytes = |name: &str| {
             let path = folder.path().join(name);

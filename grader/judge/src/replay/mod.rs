@@ -1,8 +1,7 @@
-//! One path of a submission again, with every call that it made.
+//! Replaying one path of a submission, with a recording of its calls.
 //!
-//! Any path can be computed again from its seed, pixel and sample. The host writes down each call of the submission's
-//! code ([`host::protocol::Call`]); [`vertices`] works out what a path that is weighted by the balance heuristic
-//! carries at each of its vertices.
+//! Any path can be reproduced from its seed, pixel and sample. The host records each call of the submission
+//! ([`host::protocol::Call`]); [`vertices`] reconstructs the vertices of a path of the solution.
 
 mod place;
 mod vertices;
@@ -20,10 +19,10 @@ use harness::job::JobError;
 pub use place::load;
 pub use vertices::vertices;
 
-/// Follows a path with a program, in the scene that [`load`] gives.
+/// Replays a path with a program, in the scene returned by [`load`].
 ///
 /// # Errors
-/// If the program gives no answer, or something else is wrong.
+/// If the program gives no valid answer, or the grader itself fails.
 pub fn follow(
     program: &SubmissionProgram,
     target: &ReplayTarget,
@@ -43,13 +42,13 @@ pub fn follow(
     })
 }
 
-/// Puts the material's name in the place of the surface's number.
+/// Converts a call, replacing the index of a surface by the name of its material.
 fn step(call: Call, description: &SceneDescription) -> RecordedCall {
     let number =
         |name: &str| Some(call.got.iter().find(|(other, _)| other == name)?.1.first().copied()? as usize);
     let materials = &description.materials;
     let material = number("surface").zip(number("surfaces")).map(|(surface, surfaces)| {
-        // Before the materials there may be the one surface that all triangle lights share.
+        // One surface, shared by all triangle lights, may precede the materials.
         let first = surfaces.saturating_sub(materials.len());
         let index = surface.checked_sub(first);
         index.and_then(|index| materials.get(index)).map_or("(light)", |material| &material.name).to_owned()
