@@ -6,10 +6,10 @@
 
 pub mod batches;
 pub mod bias;
-#[cfg(test)]
-mod extremes;
 pub mod independence;
 pub mod regions;
 pub mod regression;
 pub mod sequential;
+#[cfg(test)]
+mod tests;
 pub mod variance;

@@ -10,7 +10,7 @@ use host::protocol::{ProbeJob, ProbedPath, ScriptedScene};
 
 use verdict::check::{Deviation, NumericalCause, Place, StabilityFinding};
 
-use super::{PartResult, StabilityContext};
+use super::{PartResult, StabilityContext, is_radiance};
 use crate::checks::mis_weights::{Configuration, ConfigurationRange, draw, mean_and_error};
 use harness::host_process::HostProcess;
 
@@ -118,8 +118,7 @@ fn evaluate(configuration: &Configuration, light: f64, bsdf: f64, paths: &[Vec<P
     // A sample of density 0 is never drawn, so that its path need not be valid.
     let drawn = [(true, sampled, light), (false, hit, bsdf)];
     for (of_light_sample, paths, _) in drawn.into_iter().filter(|(.., density)| *density > 0.0) {
-        let bad =
-            paths.iter().flat_map(|path| path.radiance).find(|value| !(value.is_finite() && *value >= 0.0));
+        let bad = paths.iter().flat_map(|path| path.radiance).find(|&value| !is_radiance(value));
         if let Some(value) = bad {
             return PairResult::NotRadiance(of_light_sample, value);
         }

@@ -11,7 +11,7 @@ use host::protocol::{AnomalousSample, RenderJob, Rendered};
 use verdict::check::{Deviation, NumericalCause, Place, StabilityFinding};
 use verdict::replay::ReplayTarget;
 
-use super::{PartResult, StabilityContext, cause_of};
+use super::{PartResult, StabilityContext, anomaly, cause_of, is_radiance};
 use crate::extreme::measure::mean_and_error;
 use crate::scenes::{changed, room};
 use harness::job::JobError;
@@ -107,14 +107,13 @@ fn worst_region(base: &Rendered, seen: &Rendered, factor: f64) -> Option<Differe
 /// A finding if some samples are not radiance.
 fn anomalies(stability: &StabilityContext<'_>, seen: &Rendered, law: (i32, i32)) -> Option<StabilityFinding> {
     let first = seen.first_anomalies.first()?;
-    let value =
-        first.value.into_iter().find(|value| !(value.is_finite() && *value >= 0.0)).unwrap_or(f32::NAN);
+    let value = first.value.into_iter().find(|&value| !is_radiance(value)).unwrap_or(f32::NAN);
     Some(StabilityFinding {
         place: place(law),
         deviation: Deviation::Anomalies { non_finite: seen.non_finite, negative: seen.negative },
         likely_cause: cause_of(value),
         is_graded: is_graded(law),
-        first: Some(stability.anomaly(first, replay(stability, law))),
+        first: Some(anomaly(first, Some(replay(stability, law)))),
         replay: None,
     })
 }
@@ -157,7 +156,7 @@ fn describe(
         },
         likely_cause: cause(seen, law, difference),
         is_graded: is_graded(law),
-        first: Some(stability.anomaly(&sample, replay(stability, law))),
+        first: Some(anomaly(&sample, Some(replay(stability, law)))),
         replay: None,
     }
 }

@@ -14,9 +14,8 @@ mod pictures;
 
 use arty::integrator::{Settings, Technique};
 use harness::host_process::HostProcess;
-use host::protocol::AnomalousSample;
 use verdict::check::{
-    Anomaly, CheckKind, Evidence, NumericalCause, Numerics, Reason, StabilityFinding, StabilityTest,
+    CheckKind, Evidence, NumericalCause, Numerics, Reason, StabilityFinding, StabilityTest,
 };
 use verdict::replay::ReplayTarget;
 use verdict::rubric::CheckSpec;
@@ -87,6 +86,11 @@ fn conclude(findings: Vec<StabilityFinding>, samples: u64) -> CheckOutcome {
     CheckOutcome::new(reason, Evidence::Stability(StabilityTest { findings }), samples).with(numerics)
 }
 
+/// True for values that a correct estimator may return: finite and not negative.
+fn is_radiance(value: f32) -> bool {
+    value.is_finite() && value >= 0.0
+}
+
 /// The most frequent cause of a value that is not radiance.
 fn cause_of(value: f32) -> NumericalCause {
     if value.is_nan() {
@@ -99,11 +103,6 @@ fn cause_of(value: f32) -> NumericalCause {
 }
 
 impl StabilityContext<'_> {
-    /// A sample with its replay target.
-    fn anomaly(&self, sample: &AnomalousSample, scene: ReplayTarget) -> Anomaly {
-        anomaly(sample, Some(scene))
-    }
-
     /// Replay target of a path in the scene with this name.
     fn replay(&self, scene: &str, settings: Settings, size: [u32; 2]) -> ReplayTarget {
         let Settings { technique, max_bounces } = settings;

@@ -5,13 +5,13 @@ use harness::host_process::HostProcess;
 use host::protocol::{AnomalousSample, RenderJob};
 use verdict::check::{Deviation, NumericalCause, Place, StabilityFinding};
 
-use super::{PartResult, StabilityContext, cause_of};
+use super::{PartResult, StabilityContext, anomaly, cause_of, is_radiance};
 use crate::extreme::answers;
 use crate::extreme::measure::{self, MinPaths, measure_all};
 use harness::job::JobError;
 
 /// Minimum number of paths per scene.
-const EFFORT: MinPaths = MinPaths(1 << 13);
+const MIN_PATHS: MinPaths = MinPaths(1 << 13);
 
 /// Maximum number of pixels: larger pictures test the framework, not the submission.
 const MAX_PIXELS: u32 = 64;
@@ -28,7 +28,7 @@ pub(super) fn find(stability: &StabilityContext<'_>, process: &mut HostProcess) 
     let wanted = |answer: &answers::Answer| {
         answer.size[0] * answer.size[1] <= MAX_PIXELS && answer.max_bounces <= MAX_BOUNCES
     };
-    let seen = measure_all(process, &extremes, technique, EFFORT, stability.seed, wanted)?;
+    let seen = measure_all(process, &extremes, technique, MIN_PATHS, stability.seed, wanted)?;
     let mut found = Vec::new();
     let mut paths = 0;
     for mut picture in seen {
@@ -93,7 +93,7 @@ fn describe(
         Deviation::Anomalies { non_finite: measured.non_finite, negative: measured.negative }
     };
     let likely_cause = match suspect.as_ref().map(|sample| sample.value[1]) {
-        Some(value) if !(value.is_finite() && value >= 0.0) => cause_of(value),
+        Some(value) if !is_radiance(value) => cause_of(value),
         Some(_) => NumericalCause::HiddenNanOrOffset,
         None if measured.mean < *truth => NumericalCause::Limit,
         None => NumericalCause::LeakOrDoubleCount,
@@ -104,7 +104,7 @@ fn describe(
         deviation,
         likely_cause,
         is_graded: *is_graded,
-        first: suspect.as_ref().map(|sample| stability.anomaly(sample, replay.clone())),
+        first: suspect.as_ref().map(|sample| anomaly(sample, Some(replay.clone()))),
         replay: suspect
             .is_none()
             .then(|| verdict::replay::ReplayTarget { seed: batch_seed(stability.seed, 0), ..replay }),
