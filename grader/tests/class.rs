@@ -32,6 +32,7 @@ impl Course {
     fn new(submissions: &[(&str, &str)]) -> Self {
         let course = Self(tempfile::tempdir().expect("a temporary folder"));
         course.write("rubric/rubric.yml", RUBRIC);
+        course.write("rubric/starter.rs", &starter());
         for (name, source) in submissions {
             course.write(&format!("class/{name}"), source);
         }
@@ -97,7 +98,7 @@ fn solution() -> String {
 }
 
 fn starter() -> String {
-    read("skeleton/src/algorithms/render_pt.rs")
+    read("assignments/05-nee-mis/starter.rs")
 }
 
 /// A submission whose `radiance` does this.

@@ -5,7 +5,7 @@
 use arty::integrator::Technique;
 use harness::build::{Framework, SubmissionProgram, compile};
 use harness::workspace::Workspace;
-use judge::convergence::{Contestant, Options, brief, crops, measure};
+use judge::convergence::{MeasuredProgram, Options, brief, crops, measure};
 use present::convergence::{save_csv, svg};
 use verdict::convergence::{Convergence, Curve, Role};
 
@@ -26,11 +26,11 @@ fn program(source: &str) -> SubmissionProgram {
 
 fn measured(submission: &str) -> Convergence {
     let (submission, solution) = (program(submission), program(&solution()));
-    let contestant = |name: &str, role, program| Contestant { name: name.to_owned(), role, program };
-    let contestants = [
-        contestant("submission", Role::Submission, &submission),
-        contestant("solution", Role::Solution, &solution),
-        contestant("BSDF sampling", Role::Baseline, &solution),
+    let named = |name: &str, role, program| MeasuredProgram { name: name.to_owned(), role, program };
+    let programs = [
+        named("submission", Role::Submission, &submission),
+        named("solution", Role::Solution, &solution),
+        named("BSDF sampling", Role::Baseline, &solution),
     ];
     let options = Options {
         scenes: vec!["cornell_box_glossy".to_owned()],
@@ -41,7 +41,7 @@ fn measured(submission: &str) -> Convergence {
         threads: 1,
         lengths: 5,
     };
-    measure(&workspace(), &contestants, &options, |_| {}).expect("the harness works")
+    measure(&workspace(), &programs, &options, |_| {}).expect("the harness works")
 }
 
 fn curve(convergence: &Convergence, role: Role) -> &Curve {
@@ -100,8 +100,8 @@ fn without_a_solution_the_comparison_is_left_out_with_the_reason() {
 #[test]
 fn crops_show_each_program_and_the_reference_after_the_same_time() {
     let solution = program(&solution());
-    let contestant = |name: &str, role| Contestant { name: name.to_owned(), role, program: &solution };
-    let contestants = [contestant("solution", Role::Solution), contestant("BSDF sampling", Role::Baseline)];
+    let named = |name: &str, role| MeasuredProgram { name: name.to_owned(), role, program: &solution };
+    let programs = [named("solution", Role::Solution), named("BSDF sampling", Role::Baseline)];
     let options = Options {
         scenes: vec!["cornell_box".to_owned()],
         techniques: vec![Technique::Mis],
@@ -111,8 +111,8 @@ fn crops_show_each_program_and_the_reference_after_the_same_time() {
         threads: 1,
         lengths: 3,
     };
-    let convergence = measure(&workspace(), &contestants, &options, |_| {}).expect("the harness works");
-    let crops = crops(&workspace(), &contestants, &convergence).expect("the harness works");
+    let convergence = measure(&workspace(), &programs, &options, |_| {}).expect("the harness works");
+    let crops = crops(&workspace(), &programs, &convergence).expect("the harness works");
     let names: Vec<&str> = crops[0].list.iter().map(|crop| crop.name.as_str()).collect();
     assert_eq!(names, ["solution", "BSDF sampling", "reference"]);
     let error = |index: usize| crops[0].list[index].relative_mse.expect("it is known");

@@ -41,8 +41,9 @@ fn graded(folder: &Path) -> PathBuf {
         std::fs::write(path, text).expect("it can be written");
     };
     write("rubric/rubric.yml", RUBRIC);
+    write("rubric/starter.rs", &read("assignments/05-nee-mis/starter.rs"));
     write("class/ann/render_pt.rs", &read("solution/src/algorithms/render_pt.rs"));
-    write("class/bob/render_pt.rs", &read("skeleton/src/algorithms/render_pt.rs"));
+    write("class/bob/render_pt.rs", &read("assignments/05-nee-mis/starter.rs"));
     write("class/cem/render_pt.rs", &format!("fn main( {{ {EVIL}"));
     write(
         "class/dan/render_pt.rs",

@@ -6,7 +6,8 @@ use std::collections::HashSet;
 use std::fs;
 use std::path::Path;
 
-/// The only code in the starter's blocks: without it, the starter would not compile, or not without warnings.
+/// The only code in the starter's blocks: without it, the starter would not compile, or not without warnings. This list
+/// is what a reviewer has approved; the grader reads the blocks of the assignment's `starter.rs` instead.
 const STARTER_CODE: [&str; 6] = [
     "last_bounce = Some(LastBounce {});",
     "let _ = (scene, hit, bsdf, sampler); // Delete this line once you use them.",
@@ -74,6 +75,14 @@ fn content(line: &str) -> Option<&str> {
 #[test]
 fn both_programs_have_the_same_main() {
     assert_eq!(text("skeleton", "src/main.rs"), text("solution", "src/main.rs"));
+}
+
+/// Students edit the file in `skeleton/`; the grader compares it with the assignment's copy.
+#[test]
+fn the_skeleton_has_the_starter_of_the_assignment() {
+    let handed_out = text("assignments/05-nee-mis", "starter.rs");
+    let message = "cp skeleton/src/algorithms/render_pt.rs assignments/05-nee-mis/starter.rs";
+    assert!(text("skeleton", "src/algorithms/render_pt.rs") == handed_out, "they differ: {message}");
 }
 
 #[test]

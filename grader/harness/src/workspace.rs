@@ -1,5 +1,6 @@
 //! The checkout that a command works in, and the paths of its files.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use verdict::error::{Error, Result};
@@ -95,6 +96,23 @@ impl Workspace {
         self.root.join("assignments").join(name)
     }
 
+    /// The starting file of an assignment, `starter.rs`: the student's file as it was handed out.
+    pub fn starter_file(&self, assignment: &str) -> PathBuf {
+        self.assignment(assignment).join("starter.rs")
+    }
+
+    /// Text of the starting file of an assignment; empty if the assignment has none.
+    ///
+    /// # Errors
+    /// If the file exists and cannot be read as UTF-8.
+    pub fn starter(&self, assignment: &str) -> Result<String> {
+        let path = self.starter_file(assignment);
+        match std::fs::read_to_string(&path) {
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(String::new()),
+            text => text.map_err(|error| Error::file(&path, error)),
+        }
+    }
+
     /// Folder of the variants: versions of the solution with known mistakes.
     pub fn variants(&self) -> PathBuf {
         self.root.join("grader/variants")
@@ -144,6 +162,16 @@ mod tests {
         assert_eq!(root(&here.join("scenes/extreme")), here);
         assert_eq!(root(folder.path()), built_from);
         assert!(Workspace::first([folder.path()]).is_none());
+    }
+
+    #[test]
+    fn the_starter_belongs_to_the_assignment_and_not_to_the_students_file() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let workspace = Workspace { root: checkout(folder.path()) };
+        assert_eq!(workspace.starter("one").expect("an assignment need not have a starter"), "");
+        std::fs::create_dir_all(workspace.assignment("one")).expect("it can be made");
+        std::fs::write(workspace.starter_file("one"), "// TASK").expect("it can be written");
+        assert_eq!(workspace.starter("one").expect("it can be read"), "// TASK");
     }
 
     #[test]

@@ -1,5 +1,5 @@
-// The fixed program around a submission: `render_pt.rs` is put beside this file, and both are compiled by one call of
-// rustc against the prebuilt framework.
+// The fixed program around a submission: `render_pt.rs` is placed beside this file, and one call of rustc compiles both
+// against the prebuilt framework.
 
 #[forbid(unsafe_code)]
 mod render_pt;

@@ -1,6 +1,6 @@
-//! How the host makes the submission's path tracer.
+//! Construction of the submission's path tracer.
 
 use arty::integrator::{Integrator, Settings};
 
-/// Makes the path tracer of a submission.
+/// Creates the path tracer of a submission.
 pub type Constructor = fn(Settings) -> Box<dyn Integrator>;

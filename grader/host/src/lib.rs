@@ -1,12 +1,12 @@
-//! Runs one submission and answers the grader's jobs.
+//! Runs one submission and answers the grader's requests.
 //!
 //! The submission is linked into a small fixed program (`program/main.rs`) whose `main` calls `serve`. The process
 //! reads [`Request`](protocol::Request)s from its standard input and writes a [`Response`](protocol::Response) to
-//! each to what was its standard output; whatever the submission prints goes to standard error. It has no say in
-//! anything else: it gives numbers, and the grader judges them. It is locked in from its start, and tightens that before
-//! it meets the submission ([`confine`]).
+//! each to its original standard output; output of the submission goes to standard error. The process only returns
+//! numbers: the grader judges them. It is confined from its start, and tightens the confinement before it runs code of
+//! the submission ([`confine`]).
 //!
-//! Without the feature `serve` there is only the protocol, for the grader.
+//! Without the feature `serve`, the crate contains only the protocol, for the grader.
 
 pub mod confine;
 #[cfg(feature = "serve")]

@@ -1,4 +1,4 @@
-//! Following paths through scripted scenes.
+//! Tracing paths through scripted scenes.
 
 use arty::integrator::Integrator;
 use arty::math::Rgb;
@@ -10,7 +10,7 @@ use arty::scene::Scene;
 use crate::constructor::Constructor;
 use crate::protocol::{ProbeJob, ProbedPath, ScriptedScene};
 
-/// All paths of a job, scene by scene.
+/// All paths of a job, by scene.
 pub(crate) fn all(key: &Key, constructor: Constructor, job: &ProbeJob) -> Vec<Vec<ProbedPath>> {
     let integrator = constructor(job.settings);
     job.scenes

@@ -1,6 +1,7 @@
-//! What the grader and the process that runs a submission say to each other.
 //!
-//! Each message is its length in bytes (`u32`, little endian) and that many bytes of postcard.
+//! The protocol between the grader and the process that runs a submission.
+//!
+//! A message is its length in bytes (`u32`, little endian) followed by that many bytes of postcard.
 
 use std::borrow::Cow;
 use std::io::{self, Read, Write};
@@ -10,28 +11,28 @@ use arty::math::Vec3;
 use arty::scene::SceneDescription;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
-/// The longest message that is read, in bytes. Scenes are the longest: a million triangles take about 60 MB.
+/// Maximum length of a message in bytes. Scenes are the longest messages: a million triangles take about 60 MB.
 pub const MAX_MESSAGE: u32 = 512 << 20;
 
-/// A job for the host.
+/// A request to the host.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum Request<'a> {
-    /// Build this scene; later jobs refer to it by its place in the order of building.
+    /// Build this scene. Later requests refer to it by its index, in the order of building.
     Scene(Cow<'a, SceneDescription>),
     /// Render batches of a scene.
     Render(Cow<'a, RenderJob>),
-    /// Follow paths through small scripted scenes.
+    /// Trace paths through small scripted scenes.
     Probe(Cow<'a, ProbeJob>),
-    /// Follow one path of a scene and write down every call.
+    /// Trace one path of a scene and record every call.
     Replay(ReplayJob),
 }
 
-/// One path of a picture.
+/// Replays one path of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ReplayJob {
-    /// Which scene, counted from 0 in the order in which they were sent.
+    /// Index of the scene, in the order of building.
     pub scene: u32,
-    /// What the submission's path tracer is made with.
+    /// Settings of the submission's path tracer.
     pub settings: Settings,
     /// Width and height of the picture in pixels.
     pub size: [u32; 2],
@@ -39,18 +40,18 @@ pub struct ReplayJob {
     pub seed: u64,
     /// Column and row of the pixel.
     pub pixel: [u32; 2],
-    /// The number of the sample.
+    /// Index of the sample.
     pub sample: u64,
-    /// Which ways of finding light are enabled.
+    /// Switches of the scene.
     pub switches: Switches,
 }
 
 /// Independent renderings of one scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RenderJob {
-    /// Which scene, counted from 0 in the order in which they were sent.
+    /// Index of the scene, in the order of building.
     pub scene: u32,
-    /// What the submission's path tracer is made with.
+    /// Settings of the submission's path tracer.
     pub settings: Settings,
     /// Image width in pixels.
     pub width: u32,
@@ -58,16 +59,16 @@ pub struct RenderJob {
     pub height: u32,
     /// One seed per batch.
     pub seeds: Vec<u64>,
-    /// The number of the first sample of each pixel in each batch.
+    /// Index of the first sample per pixel and batch.
     pub first_sample: u64,
-    /// Samples of each pixel in each batch.
+    /// Samples per pixel and batch.
     pub samples: u64,
-    /// Which ways of finding light are enabled.
+    /// Switches of the scene.
     pub switches: Switches,
 }
 
 impl RenderJob {
-    /// A job that renders one batch for each seed, `samples` per pixel, beginning with the first sample.
+    /// A job that renders one batch per seed with `samples` samples per pixel, starting with sample 0.
     pub fn new(
         scene: u32,
         settings: Settings,
@@ -80,10 +81,10 @@ impl RenderJob {
     }
 }
 
-/// Which ways of finding light are enabled. By default all of them.
+/// Switches of a scene. By default everything is on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Switches {
-    /// False if the emission of lights that are hit is black.
+    /// False if `Hit::emission` returns black.
     pub emission_on_hit: bool,
 }
 
@@ -93,82 +94,82 @@ impl Default for Switches {
     }
 }
 
-/// Paths through scripted scenes.
+/// Traces paths through scripted scenes.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ProbeJob {
-    /// What the submission's path tracer is made with.
+    /// Settings of the submission's path tracer.
     pub settings: Settings,
-    /// The scenes, one after the other.
+    /// The scenes.
     pub scenes: Vec<ScriptedScene>,
-    /// How many paths are followed in each: they differ in the submission's own random numbers only.
+    /// Number of paths per scene. They differ only in the random numbers of the submission.
     pub samples: u64,
-    /// The seed of these random numbers.
+    /// Seed of these random numbers.
     pub seed: u64,
-    /// True if these numbers fill [0, 1) evenly over all paths of a scene; then `samples` is a power of two, at most 2²⁰.
+    /// True if these numbers are stratified over all paths of a scene; then `samples` is a power of two, at most 2²⁰.
     pub stratified: bool,
 }
 
-/// A scene of which densities and BSDFs are scripted; its geometry is true.
+/// A scene with scripted densities and BSDFs. Its geometry is real.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ScriptedScene {
-    /// The scene. Its camera is not used.
+    /// Content of the scene. Its camera is not used.
     pub scene: SceneDescription,
-    /// One for each material; `None` leaves it as it is.
+    /// One per material; `None` keeps the BSDF of the material.
     pub bsdfs: Vec<Option<ScriptedBsdf>>,
-    /// One for each light, those of the description first; `None` leaves it as it is.
+    /// One per light, those of the description first; `None` keeps the sampling of the light.
     pub lights: Vec<Option<ScriptedLight>>,
-    /// Where the camera's ray starts, in world space.
+    /// Origin of the camera ray, in world space.
     pub origin: Vec3,
-    /// Where it goes: a unit vector.
+    /// Direction of the camera ray, in world space; a unit vector.
     pub direction: Vec3,
 }
 
-/// A BSDF with the same value and density for all directions above the horizon.
+/// A BSDF with constant value and density for all directions above the horizon.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ScriptedBsdf {
-    /// The point (world space) to which every direction goes that is drawn.
+    /// The point in world space towards which every sampled direction points.
     pub target: Vec3,
-    /// Its value in every channel, 1/sr; for a delta distribution that of the one direction.
+    /// Value in every channel, 1/sr; for a delta distribution the value of its one direction.
     pub f: f32,
-    /// Its density per solid angle; for a delta distribution the probability of the one direction. Greater than 0.
+    /// Density per solid angle; for a delta distribution the probability of its one direction. Positive.
     pub pdf: f32,
     /// True if it is a delta distribution.
     pub is_delta: bool,
 }
 
-/// A triangle light of which one point is drawn.
+/// A triangle light of which always the same point is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ScriptedLight {
-    /// The point in world space; on the light.
+    /// The point on the light, in world space.
     pub point: Vec3,
-    /// The density per area with which every point of the light claims to be drawn. Greater than 0.
+    /// Density per area that every point of the light reports. Positive.
     pub pdf_area: f32,
 }
 
-/// The argument with which the grader starts a host that does not lock itself in.
+/// Argument with which the grader starts a host that does not confine itself.
 pub const UNCONFINED: &str = "--unconfined";
 
-/// An answer of the host: exactly one to each request, after one that says that it is there.
+/// A response of the host: `Started` first, then exactly one per request.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Response {
-    /// The host is ready for requests. How it is confined, the grader knows.
+    /// The host is ready for requests. It says nothing about its confinement, which the grader knows.
     Started,
     /// The scene is built.
     SceneReady,
     /// The batches are rendered.
     Rendered(Rendered),
-    /// For each scripted scene what its paths found.
+    /// The paths of each scripted scene.
     Probed(Vec<Vec<ProbedPath>>),
-    /// What one path called.
+    /// The recording of one path.
     Replayed(Replayed),
     /// The submission panicked.
     Panicked {
-        /// What it said.
+        /// Message of the panic.
         message: String,
     },
-    /// The request made no sense. The grader sends none that does not: whoever says so is a submission.
+    /// The request was invalid. Since the grader sends only valid requests, this response comes from a submission.
     Rejected {
-        /// Why.
+        /// The reason.
         message: String,
     },
 }
@@ -176,55 +177,55 @@ pub enum Response {
 /// One path of a [`ProbeJob`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ProbedPath {
-    /// The radiance that it found. It may be anything, NaN too.
+    /// Radiance that the path returned. It may be any value, including NaN.
     pub radiance: [f32; 3],
-    /// Calls of `Scene::intersect`.
+    /// Number of calls of `Scene::intersect`.
     pub rays: u32,
-    /// Calls of `Scene::occluded`.
+    /// Number of calls of `Scene::occluded`.
     pub shadow_rays: u32,
-    /// Calls of `Light::sample_direct`.
+    /// Number of calls of `Light::sample_direct`.
     pub light_samples: u32,
 }
 
-/// The path of a [`ReplayJob`].
+/// The recorded path of a [`ReplayJob`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Replayed {
-    /// The radiance that it returned. It may be anything, NaN too.
+    /// Radiance that the path returned. It may be any value, including NaN.
     pub radiance: [f32; 3],
-    /// Every call of the submission, in order.
+    /// Calls of the submission, in order.
     pub calls: Vec<Call>,
-    /// Calls beyond those, which were not written down.
+    /// Number of further calls that were not recorded.
     pub left_out: u64,
 }
 
-/// A call of the submission.
+/// A recorded call of the submission.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Call {
-    /// What was called, as in `Scene::intersect`.
+    /// Name of the function, such as `Scene::intersect`.
     pub function: String,
-    /// What it was given.
+    /// Arguments, by name.
     pub given: Vec<(String, Vec<f32>)>,
-    /// What it gave; nothing for `None`.
+    /// Result, by name; empty for `None`.
     pub got: Vec<(String, Vec<f32>)>,
 }
 
-/// The batches of a [`RenderJob`].
+/// The result of a [`RenderJob`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rendered {
-    /// For each batch and pixel (row by row from the top) the mean of its samples.
+    /// Mean of the samples of each batch and pixel, row by row from the top.
     pub batches: Vec<Vec<[f32; 3]>>,
-    /// Samples that were NaN or infinite. They count as black in the means.
+    /// Number of samples that were NaN or infinite. They count as black in the means.
     pub non_finite: u64,
-    /// Samples that were finite but negative.
+    /// Number of samples that were finite but negative.
     pub negative: u64,
-    /// The first few of either kind.
+    /// The first few of these samples.
     pub first_anomalies: Vec<AnomalousSample>,
-    /// Processor time that rendering took, over all threads, in seconds.
+    /// Processor time of the rendering over all threads, in seconds.
     pub cpu_seconds: f64,
 }
 
 impl Rendered {
-    /// Adds more batches of the same scene.
+    /// Appends more batches of the same scene.
     pub fn append(&mut self, more: Self) {
         self.batches.extend(more.batches);
         self.non_finite += more.non_finite;
@@ -234,26 +235,26 @@ impl Rendered {
     }
 }
 
-/// A sample that no correct estimator gives, and how to make it again.
+/// A sample that is not radiance, and how to reproduce it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AnomalousSample {
-    /// The seed of its batch.
+    /// Seed of its batch.
     pub seed: u64,
     /// Pixel column.
     pub x: u32,
     /// Pixel row.
     pub y: u32,
-    /// Number of the sample.
+    /// Index of the sample.
     pub sample: u64,
-    /// Its value.
+    /// Value of the sample.
     pub value: [f32; 3],
 }
 
-/// Writes one message.
+/// Writes one message and flushes the writer.
 pub fn write_message(writer: &mut impl Write, message: &impl Serialize) -> io::Result<()> {
     let bytes = postcard::to_stdvec(message).map_err(io::Error::other)?;
     let length = u32::try_from(bytes.len()).ok().filter(|&length| length <= MAX_MESSAGE);
-    let length = length.ok_or_else(|| io::Error::other("message too long"))?;
+    let length = length.ok_or_else(|| io::Error::other("the message is too long"))?;
     writer.write_all(&length.to_le_bytes())?;
     writer.write_all(&bytes)?;
     writer.flush()
@@ -273,9 +274,10 @@ pub fn read_bytes(reader: &mut impl Read, limit: u32) -> io::Result<Option<Vec<u
     reader.read_exact(&mut length[1..])?;
     let length = u32::from_le_bytes(length);
     if length > limit {
-        return Err(io::Error::new(io::ErrorKind::InvalidData, format!("a message of {length} bytes")));
+        let error = format!("a message of {length} bytes exceeds the limit of {limit}");
+        return Err(io::Error::new(io::ErrorKind::InvalidData, error));
     }
-    // Grow as the bytes come: a length alone must not make anyone reserve memory.
+    // Grow as bytes arrive: a length alone must not reserve memory.
     let mut bytes = Vec::new();
     reader.take(u64::from(length)).read_to_end(&mut bytes)?;
     if bytes.len() < length as usize {
@@ -284,7 +286,7 @@ pub fn read_bytes(reader: &mut impl Read, limit: u32) -> io::Result<Option<Vec<u
     Ok(Some(bytes))
 }
 
-/// The message that these bytes are.
+/// Decodes one message, which must use all of the bytes.
 pub fn decode<T: DeserializeOwned>(bytes: &[u8]) -> io::Result<T> {
     let (message, rest) = postcard::take_from_bytes(bytes)
         .map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error))?;
@@ -299,7 +301,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn messages_survive_the_pipe_and_broken_ones_are_errors() {
+    fn messages_round_trip_and_damaged_ones_are_errors() {
         let response = Response::Panicked { message: "index out of bounds".to_owned() };
         let mut pipe = Vec::new();
         write_message(&mut pipe, &response).expect("a vector takes everything");

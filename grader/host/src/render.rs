@@ -11,10 +11,10 @@ use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use crate::constructor::Constructor;
 use crate::protocol::{AnomalousSample, RenderJob, Rendered};
 
-/// How many anomalies are named.
-const NAMED: usize = 16;
+/// Maximum number of anomalous samples in a response.
+const MAX_ANOMALIES: usize = 16;
 
-/// Renders each batch with its own seed, all of them in parallel, with one path tracer.
+/// Renders the batches in parallel, each with its own seed and all with one path tracer.
 pub(crate) fn batches(constructor: Constructor, scene: &Scene, job: &RenderJob) -> Rendered {
     let integrator = constructor(job.settings);
     let start = ProcessTime::now();
@@ -55,6 +55,6 @@ pub(crate) fn batches(constructor: Constructor, scene: &Scene, job: &RenderJob) 
         };
         rendered.first_anomalies.extend(anomalies.first.iter().map(named));
     }
-    rendered.first_anomalies.truncate(NAMED);
+    rendered.first_anomalies.truncate(MAX_ANOMALIES);
     rendered
 }

@@ -1,4 +1,4 @@
-//! Following one path, with every call written down.
+//! Replaying one path with every call recorded.
 
 use arty::probe::{self, Key, start_recording, take_recording};
 use arty::render::sample_pixel;
@@ -7,7 +7,7 @@ use arty::scene::Scene;
 use crate::constructor::Constructor;
 use crate::protocol::{Call, ReplayJob, Replayed};
 
-/// Computes one sample again.
+/// Computes one sample again and records its calls.
 pub(crate) fn path(key: &Key, constructor: Constructor, scene: &Scene, job: &ReplayJob) -> Replayed {
     let integrator = constructor(job.settings);
     let [width, height] = job.size;

@@ -1,4 +1,4 @@
-//! The loop that answers jobs.
+//! The loop that answers requests.
 
 use std::any::Any;
 use std::io::{BufReader, BufWriter, Read, Write};
@@ -14,20 +14,20 @@ use crate::constructor::Constructor;
 use crate::protocol::{MAX_MESSAGE, Request, Response, Switches, UNCONFINED, read_message, write_message};
 use crate::{probe, render, replay, stdio};
 
-/// Answers requests until the grader closes the pipe.
+/// Answers requests until the grader closes the pipe. Exit code 3 if the pipe breaks or this is not the first call.
 pub fn serve(constructor: Constructor) -> ExitCode {
     let (input, output) = match stdio::take() {
         Ok(pipes) => pipes,
         Err(error) => {
-            eprintln!("host: the pipe to the grader could not be taken over: {error}");
+            eprintln!("host: cannot take over the pipe to the grader: {error}");
             return ExitCode::from(3);
         }
     };
     let Some(key) = Key::take() else {
-        eprintln!("host: it serves only once in a process");
+        eprintln!("host: serve() can run only once per process");
         return ExitCode::from(3);
     };
-    // The staff may ask for a process without a sandbox: to measure what it costs.
+    // Staff can start a process without a sandbox, to measure the cost of the sandbox.
     if std::env::args().nth(1).is_none_or(|argument| argument != UNCONFINED) {
         tighten();
     }
@@ -87,12 +87,12 @@ fn switches(switches: Switches) -> arty::probe::Switches {
     arty::probe::Switches { emission_on_hit: switches.emission_on_hit }
 }
 
-/// Runs code of the submission.
+/// Runs code of the submission and turns a panic into a response.
 fn guarded(answer: impl FnOnce() -> Response) -> Response {
     catch_unwind(AssertUnwindSafe(answer)).unwrap_or_else(|_| Response::Panicked { message: first_panic() })
 }
 
-/// What the first panic said, and where.
+/// Message and location of the first panic.
 static FIRST_PANIC: Mutex<Option<String>> = Mutex::new(None);
 
 fn keep_panic_messages() {
@@ -107,21 +107,21 @@ fn keep_panic_messages() {
     }));
 }
 
-/// `panic!("…")` gives a `&str`, with values to fill in a `String`.
+/// The payload of `panic!` is a `&str`, or a `String` if the message is formatted.
 fn message_of(payload: &dyn Any) -> &str {
     let text = payload.downcast_ref::<&str>().copied();
     text.or_else(|| payload.downcast_ref::<String>().map(String::as_str))
         .unwrap_or("a value that is not text")
 }
 
-/// As much of a message as anyone will read: it may be gigabytes.
+/// The beginning of a message, which may be gigabytes long.
 fn beginning(message: &str) -> &str {
-    let end = message.char_indices().nth(LONGEST_MESSAGE).map_or(message.len(), |(end, _)| end);
+    let end = message.char_indices().nth(MAX_MESSAGE_CHARS).map_or(message.len(), |(end, _)| end);
     &message[..end]
 }
 
-/// Characters of a panic message that are passed on.
-const LONGEST_MESSAGE: usize = 2000;
+/// Maximum number of characters of a panic message that are passed on.
+const MAX_MESSAGE_CHARS: usize = 2000;
 
 fn first_panic() -> String {
     FIRST_PANIC.lock().ok().and_then(|mut first| first.take()).unwrap_or_else(|| "(no message)".to_owned())

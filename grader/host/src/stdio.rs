@@ -1,11 +1,12 @@
-//! Keeping the pipe to the grader apart from what a submission reads and prints.
+//! Separates the pipe to the grader from the standard streams of a submission.
 
 use std::fs::File;
 use std::io;
 
-/// The pipe: where requests come from, and where responses go.
+/// Takes over standard input and output as the pipe to the grader: requests come from the first file, responses go to
+/// the second.
 ///
-/// Afterwards standard input is empty, and what is printed to standard output goes to standard error.
+/// Afterwards standard input is empty, and standard output is redirected to standard error.
 #[cfg(unix)]
 pub(crate) fn take() -> io::Result<(File, File)> {
     use std::os::fd::AsFd;
@@ -17,8 +18,8 @@ pub(crate) fn take() -> io::Result<(File, File)> {
     Ok((input.into(), output.into()))
 }
 
-/// The pipe: where requests come from, and where responses go. A submission that prints to standard output garbles
-/// its own answers here.
+/// Takes over standard input and output as the pipe to the grader: requests come from the first file, responses go to
+/// the second. On Windows, a submission that prints to standard output corrupts its own responses.
 #[cfg(windows)]
 pub(crate) fn take() -> io::Result<(File, File)> {
     use std::os::windows::io::AsHandle;

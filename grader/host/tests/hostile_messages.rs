@@ -1,5 +1,4 @@
-//! Messages that somebody has damaged: each is read or refused, never with a panic, and nothing reserves memory that the
-//! bytes do not pay for.
+//! Damaged messages: each is read or refused without a panic, and no length reserves more memory than there are bytes.
 
 use std::borrow::Cow;
 
@@ -15,7 +14,7 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::{Config, RngAlgorithm, RngSeed};
 
-/// The longest message that is read here, in bytes.
+/// Maximum length of a message in these tests, in bytes.
 const LIMIT: u32 = 1 << 16;
 
 fn responses() -> Vec<Vec<u8>> {
@@ -100,7 +99,7 @@ proptest! {
         if let Some(end) = end {
             damaged.truncate(end.index(damaged.len()));
         }
-        // Whatever it says, there is nothing after it but the end of the stream.
+        // The message may be valid or not; only the end of the stream follows it.
         let mut reader = damaged.as_slice();
         while let Ok(Some(response)) = read_message::<Response>(&mut reader, LIMIT) {
             if let Response::Rendered(rendered) = response {
@@ -113,7 +112,7 @@ proptest! {
 }
 
 #[test]
-fn what_is_not_damaged_is_read() {
+fn undamaged_messages_are_read() {
     for bytes in responses() {
         assert!(matches!(read_message::<Response>(&mut bytes.as_slice(), LIMIT), Ok(Some(_))));
     }

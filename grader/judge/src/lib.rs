@@ -1,8 +1,8 @@
-//! What is right, and how sure that is: statistics, references, checks, grades, diagnoses.
+//! Decides whether a submission is right, and how surely: statistics, references, checks, grades and diagnoses.
 //!
-//! [`checks`] ask a submission for numbers and judge them with [`statistics`] against [`mod@reference`]s or closed forms;
-//! [`mod@plan`] says where each check means something; [`mod@grade`] turns verdicts into points; [`diagnosis`] finds
-//! likely causes. [`convergence`] measures error against run time, for no points.
+//! [`checks`] request numbers from a submission and compare them with [`mod@reference`]s or closed forms, using
+//! [`statistics`]; [`mod@plan`] says where each check applies; [`mod@grade`] turns verdicts into points; [`diagnosis`]
+//! finds likely causes. [`convergence`] measures error against run time, which does not affect points.
 
 pub mod checks;
 pub mod convergence;

@@ -1,4 +1,4 @@
-//! Rendering pictures with a submission.
+//! Rendering a submission's pictures for the report page.
 
 use arty::image::exr::ExrFile;
 use arty::integrator::{Settings, Technique};
@@ -17,34 +17,35 @@ use verdict::error::Result;
 use verdict::pictures::{Picture, THUMBNAIL_SCENE, half_bits};
 use verdict::report::Report;
 
-/// The most scenes of a page: a scene takes 0.8 of 3 megabytes.
+/// Maximum number of scenes on a page: each takes 0.8 of 3 megabytes.
 pub const MAX_PICTURES: usize = 3;
 
-/// What is shown where nothing is wrong. The first one is always there, so that a class can be looked at as one wall.
-const TELLING: [&str; MAX_PICTURES] = [THUMBNAIL_SCENE, "veach_mis", "cornell_box_glossy"];
+/// Scenes that are shown if nothing is wrong. The first is always shown, for the overview of a class.
+const DEFAULT_SCENES: [&str; MAX_PICTURES] = [THUMBNAIL_SCENE, "veach_mis", "cornell_box_glossy"];
 
-/// Independent renderings, and samples of each pixel in each.
+/// Number of batches, and samples per pixel of each batch.
 const BATCHES: u64 = 8;
 const SAMPLES: u64 = 2;
 
-/// By how much the stored references are rounded, as a share of their value: where nothing varies, that is no error.
+/// Relative rounding error of the stored references, which are half floats.
 const HALF_ROUNDING: f64 = 1.0 / 2048.0;
 
-/// Pixels to each side that a z value takes in.
+/// Radius in pixels of the square that a z value covers.
 const RADIUS: usize = 2;
 
-/// Pictures of one scene that always is the same, of those whose means are wrong, and of a few that tell much. What
-/// cannot be shown is left out, as are all beyond `most`: no picture decides anything. A submission that ran out of time is not rendered again.
+/// Renders at most `max_pictures` pictures: of the thumbnail scene, of scenes whose mean is wrong, and of default
+/// scenes. Scenes without a display reference are omitted. A submission that crashed or exceeded its time limit is not
+/// rendered.
 ///
 /// # Errors
-/// What is not the submission's doing.
+/// If the grader itself fails.
 pub fn pictures(
     workspace: &Workspace,
     submission: &SubmissionProgram,
     report: &Report,
     threads: usize,
     seed: u64,
-    most: usize,
+    max_pictures: usize,
 ) -> Result<Vec<Picture>> {
     let mut list = Vec::new();
     if report.checks.iter().any(|check| matches!(check.reason, Reason::Timeout | Reason::Crash)) {
@@ -54,8 +55,8 @@ pub fn pictures(
     let wrong =
         wrong.filter(|check| check.id.kind == CheckKind::MeanBias).map(|check| check.id.scene.as_str());
     let mut seen: Vec<&str> = Vec::new();
-    for scene in TELLING.into_iter().take(1).chain(wrong).chain(TELLING) {
-        if list.len() == most {
+    for scene in DEFAULT_SCENES.into_iter().take(1).chain(wrong).chain(DEFAULT_SCENES) {
+        if list.len() == max_pictures {
             break;
         }
         if !seen.contains(&scene) {
@@ -74,7 +75,8 @@ fn picture(
     seed: u64,
 ) -> Result<Option<Picture>> {
     let description = arty::scene::file::load(&workspace.scene_file(scene))?.description;
-    let Some(Shown { reference, width, height, max_bounces }) = half_size(workspace, scene, &description)
+    let Some(DisplayReference { reference, width, height, max_bounces }) =
+        half_size_reference(workspace, scene, &description)
     else {
         return Ok(None);
     };
@@ -103,7 +105,7 @@ fn picture(
         all.push((technique, rendered.batches));
     }
     drop(process);
-    // The submission is done; what is left is work of the grader, on one core for each technique.
+    // The submission has finished; the comparisons run in parallel, one per technique.
     let compared = all.par_iter().map(|(technique, batches)| {
         let (means, z) = mean_and_z(batches, &reference, width, height);
         let flip = hdr_flip(&means, &reference, width, height).map(|flip| flip.map).unwrap_or_default();
@@ -115,7 +117,7 @@ fn picture(
     Ok((!picture.rendered.is_empty()).then_some(picture))
 }
 
-/// Means over all batches, and their differences from the reference in standard errors.
+/// Means over all batches, and their z values against the reference.
 fn mean_and_z(
     batches: &[Vec<[f32; 3]>],
     reference: &[[f64; 3]],
@@ -141,18 +143,22 @@ fn mean_and_z(
     (means, z)
 }
 
-/// A reference for looking at.
-pub(crate) struct Shown {
-    /// Row by row from the top.
+/// A reference picture for display.
+pub(crate) struct DisplayReference {
+    /// Linear radiance, row by row from the top.
     pub(crate) reference: Vec<[f64; 3]>,
     pub(crate) width: usize,
     pub(crate) height: usize,
     pub(crate) max_bounces: u32,
 }
 
-/// The reference at half its size; `None` if it is not there, shows another scene, or does not say how many bounces it
-/// has.
-pub(crate) fn half_size(workspace: &Workspace, scene: &str, description: &SceneDescription) -> Option<Shown> {
+/// The display reference at half its size; `None` if it does not exist, shows another version of the scene, or does not
+/// record its number of bounces.
+pub(crate) fn half_size_reference(
+    workspace: &Workspace,
+    scene: &str,
+    description: &SceneDescription,
+) -> Option<DisplayReference> {
     let file = ExrFile::read(&workspace.picture_file(scene)).ok()?;
     let max_bounces = file.metadata.get("arty:max_bounces")?.parse().ok()?;
     let hash = description.hash();
@@ -166,11 +172,11 @@ pub(crate) fn half_size(workspace: &Workspace, scene: &str, description: &SceneD
     };
     let reference =
         (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| of_four(x, y)).collect();
-    Some(Shown { reference, width, height, max_bounces })
+    Some(DisplayReference { reference, width, height, max_bounces })
 }
 
-/// Sums of differences over a small square around each pixel, divided by the root of the sum of their variances: a
-/// single pixel of few samples would say nothing. 0 where nothing varies and nothing differs.
+/// For each pixel, the sum of differences over the square around it, in standard errors: a single pixel has too few
+/// samples. 0 where nothing differs. Clamped to ±1e4.
 fn z_map(differences: &[f64], variances: &[f64], width: usize, height: usize) -> Vec<f64> {
     let around = |list: &[f64], x: usize, y: usize| -> f64 {
         let rows = y.saturating_sub(RADIUS)..(y + RADIUS + 1).min(height);
@@ -182,7 +188,7 @@ fn z_map(differences: &[f64], variances: &[f64], width: usize, height: usize) ->
     };
     let z = |x: usize, y: usize| {
         let (sum, variance) = (around(differences, x, y), around(variances, x, y));
-        // Black surroundings have no variance; a tiny one keeps true differences visible there.
+        // Black regions have no variance; a small constant keeps differences there finite.
         if sum == 0.0 { 0.0 } else { (sum / (variance + 1e-12).sqrt()).clamp(-1e4, 1e4) }
     };
     (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| z(x, y)).collect()
@@ -193,7 +199,7 @@ mod tests {
     use super::z_map;
 
     #[test]
-    fn a_difference_stands_out_around_where_it_is() {
+    fn a_difference_shows_in_the_square_around_it() {
         let mut differences = vec![0.0; 12 * 10];
         differences[4 * 12 + 6] = 3.0;
         let z = z_map(&differences, &vec![1.0; 120], 12, 10);

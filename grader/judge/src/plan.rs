@@ -1,4 +1,4 @@
-//! Which checks mean something in which scene.
+//! The plan: which checks apply to which scene.
 
 use std::collections::BTreeMap;
 
@@ -10,23 +10,23 @@ use verdict::rubric::{CheckSpec, Rubric};
 
 use crate::checks::{SceneWithReference, of_kind};
 
-/// A kind of check in a scene.
+/// A kind of check with a technique in a scene.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Entry {
-    /// The kind.
+pub struct PlannedCheck {
+    /// Kind of check.
     pub check: CheckKind,
-    /// With which technique.
+    /// Technique.
     pub technique: Technique,
-    /// Why it means nothing there; `None` if it does mean something.
+    /// Why it does not apply; `None` if it applies.
     pub why_not: Option<WhyNot>,
 }
 
-/// Everything that could be checked in a scene, with the number of bounces that says most.
-pub fn for_scene(scene: &SceneWithReference) -> Vec<Entry> {
+/// All kinds of checks and techniques in a scene, with the recommended number of bounces.
+pub fn for_scene(scene: &SceneWithReference) -> Vec<PlannedCheck> {
     let all = scene.scene.defaults().max_bounces.unwrap_or(8);
     let entry = |kind: CheckKind, technique| {
-        let spec = CheckSpec::new(kind, technique, of_kind(kind).telling_bounces(all));
-        Entry { check: kind, technique, why_not: why_not(&spec, scene).err() }
+        let spec = CheckSpec::new(kind, technique, of_kind(kind).recommended_bounces(all));
+        PlannedCheck { check: kind, technique, why_not: why_not(&spec, scene).err() }
     };
     let kinds = CheckKind::ALL.into_iter().filter(|&kind| kind != CheckKind::HiddenVariants);
     kinds
@@ -34,10 +34,10 @@ pub fn for_scene(scene: &SceneWithReference) -> Vec<Entry> {
         .collect()
 }
 
-/// Refuses a rubric that asks for a check which could mean nothing in any scene: `for_scene` asks the same functions.
+/// Refuses a rubric with a check that is not valid in any scene. [`for_scene`] uses the same functions.
 ///
 /// # Errors
-/// The first such check.
+/// The first invalid check.
 pub fn validate(rubric: &Rubric) -> Result<()> {
     for (task, spec) in rubric.checks() {
         of_kind(spec.check).accepts(spec).map_err(|why| {
@@ -49,9 +49,7 @@ pub fn validate(rubric: &Rubric) -> Result<()> {
                 }
                 WhyNot::Bounces { min, max } if min == max => format!("`max_bounces` must be {min}"),
                 WhyNot::Bounces { min, max } => format!("`max_bounces` must be from {min} to {max}"),
-                _ => {
-                    "`emission_on_hit: off` goes with mean-bias and closed-form, and with nee only".to_owned()
-                }
+                _ => "`emission_on_hit: off` needs mean-bias or closed-form with `technique: nee`".to_owned(),
             };
             Error::Input(format!("task {}, {}: {what}", task.id, spec.id()))
         })?;
@@ -59,8 +57,8 @@ pub fn validate(rubric: &Rubric) -> Result<()> {
     Ok(())
 }
 
-/// Why a check of a rubric is skipped; `None` if it is not. Its scene is `None` if it makes its own, or if only staff have
-/// it.
+/// Why a check of a rubric is skipped; `None` if it is not. `scene` is `None` if the check builds its own scene, or if
+/// the scene is missing because only staff have it.
 pub fn why_skipped(
     spec: &CheckSpec,
     scene: Option<&SceneWithReference>,
@@ -73,15 +71,15 @@ pub fn why_skipped(
     }
 }
 
-/// True of a check that only staff can run. Where it is skipped for that, it keeps its worth.
+/// True if only staff can run the check. If it is skipped for that reason, its points are kept open.
 pub fn needs_staff(spec: &CheckSpec) -> bool {
     spec.visibility() == Visibility::StaffOnly
 }
 
-/// What is skipped in all scenes of a grade, and why.
+/// All kinds of checks that do not apply to the scenes of a grade.
 pub fn skipped(scenes: &BTreeMap<String, SceneWithReference>) -> Vec<SkippedCheck> {
     let of_scene = |(name, scene): (&String, &SceneWithReference)| -> Vec<SkippedCheck> {
-        let skipped = |Entry { check: kind, technique, why_not }: Entry| {
+        let skipped = |PlannedCheck { check: kind, technique, why_not }: PlannedCheck| {
             Some(SkippedCheck { kind, technique, scene: name.clone(), check: None, why: why_not? })
         };
         for_scene(scene).into_iter().filter_map(skipped).collect()
@@ -94,7 +92,7 @@ fn why_not(spec: &CheckSpec, scene: &SceneWithReference) -> std::result::Result<
     check.accepts(spec)?;
     let features = scene.scene.features();
     if !features.has_lights() {
-        // Paths must end there, too.
+        // Paths must end even without lights.
         return if spec.check == CheckKind::RayBudget { Ok(()) } else { Err(WhyNot::NoLights) };
     }
     if spec.technique == Technique::Bsdf && features.area_lights == 0 {

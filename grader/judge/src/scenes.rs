@@ -1,4 +1,4 @@
-//! Scenes made in memory.
+//! Building scenes in memory.
 
 use arty::math::{Rgb, Vec3};
 use arty::scene::{
@@ -6,7 +6,7 @@ use arty::scene::{
 };
 use glam::DVec3;
 
-/// A scene without anything, seen from above the origin along a slant.
+/// An empty scene with a camera that looks at the origin.
 pub fn empty() -> SceneDescription {
     SceneDescription {
         camera: camera(DVec3::new(0.3, 0.4, 0.5), DVec3::ZERO, 0.01),
@@ -18,12 +18,12 @@ pub fn empty() -> SceneDescription {
     }
 }
 
-/// A camera that has y upwards.
+/// A camera whose up vector is y.
 pub fn camera(eye: DVec3, center: DVec3, fov: f32) -> CameraDescription {
     CameraDescription { eye: eye.as_vec3(), center: center.as_vec3(), up: Vec3::Y, fov }
 }
 
-/// A grey diffuse material that may emit.
+/// A grey diffuse material with this albedo and emitted radiance.
 pub fn grey(reflectance: f32, radiance: f32) -> Material {
     Material {
         name: "grey".to_owned(),
@@ -34,7 +34,7 @@ pub fn grey(reflectance: f32, radiance: f32) -> Material {
     }
 }
 
-/// Adds triangles of one material, given by their corners.
+/// Adds a mesh of triangles with one material.
 pub fn add(scene: &mut SceneDescription, corners: &[[DVec3; 3]], material: Material) {
     let index = scene.materials.len() as u32;
     scene.materials.push(material);
@@ -51,22 +51,22 @@ pub fn add(scene: &mut SceneDescription, corners: &[[DVec3; 3]], material: Mater
     });
 }
 
-/// A rectangle from a corner and two sides; its front is that of `right × up`.
+/// A rectangle given by a corner and two sides. Its front faces `right × up`.
 pub fn rectangle(corner: DVec3, right: DVec3, up: DVec3) -> Vec<[DVec3; 3]> {
     vec![[corner, corner + right, corner + right + up], [corner, corner + right + up, corner + up]]
 }
 
-/// A rectangle at the height y around the axis that looks up, with sides of this length.
+/// A square at height y, centered on the y axis, facing up.
 pub fn floor(y: f64, side: f64) -> Vec<[DVec3; 3]> {
     rectangle(DVec3::new(-0.5 * side, y, 0.5 * side), side * DVec3::X, -side * DVec3::Z)
 }
 
-/// The same with its front below.
+/// A square at height y, centered on the y axis, facing down.
 pub fn ceiling(y: f64, side: f64) -> Vec<[DVec3; 3]> {
     rectangle(DVec3::new(-0.5 * side, y, -0.5 * side), side * DVec3::X, side * DVec3::Z)
 }
 
-/// A ball of 8·4ⁿ triangles around the origin with its front inside.
+/// A sphere of 8·4ⁿ triangles around the origin, facing inwards.
 pub fn hollow_ball(radius: f64, n: u32) -> Vec<[DVec3; 3]> {
     let mut triangles = Vec::new();
     for x in [1.0, -1.0] {
@@ -87,10 +87,10 @@ pub fn hollow_ball(radius: f64, n: u32) -> Vec<[DVec3; 3]> {
     triangles.into_iter().map(|triangle| triangle.map(|corner| radius * corner)).collect()
 }
 
-/// The same scene `scale` times as large about the origin, then moved, with all radiances times `emission`.
+/// The scene scaled about the origin, then translated, with all emission scaled by `emission`.
 ///
-/// What is seen is the same picture times `emission`: radiance does not depend on size, and the power of lights without
-/// an area grows with the area that they light.
+/// Its picture is the original times `emission`: radiance does not depend on scale, and the power of lights without an
+/// area is scaled by the square of lengths.
 pub fn changed(scene: &SceneDescription, scale: f64, offset: DVec3, emission: f32) -> SceneDescription {
     let at = |point: Vec3| (scale * point.as_dvec3() + offset).as_vec3();
     let mut changed = scene.clone();
@@ -123,7 +123,7 @@ pub fn point_light(position: Vec3, power: Rgb) -> LightDescription {
     LightDescription::Point { position, power }
 }
 
-/// A cube of side 2 around the origin; its sides have no common front.
+/// A cube of side 2 around the origin. The orientation of its sides varies.
 pub fn cube() -> Vec<[DVec3; 3]> {
     let corner = |index: u32| {
         let side = |bit: u32| if index >> bit & 1 == 0 { -1.0 } else { 1.0 };
@@ -136,8 +136,8 @@ pub fn cube() -> Vec<[DVec3; 3]> {
         .collect()
 }
 
-/// A room of about four units: diffuse and glossy surfaces, a block near a wall, something hung closely under a light,
-/// a light with an area and one without.
+/// A room of about four units with diffuse and glossy surfaces, a shelf near a wall, a sheet just above the floor, an
+/// area light and a point light.
 pub fn room() -> SceneDescription {
     let mut scene = empty();
     scene.camera = camera(DVec3::new(0.3, 1.2, 3.2), DVec3::new(0.0, 0.6, 0.0), 45.0);
@@ -147,7 +147,7 @@ pub fn room() -> SceneDescription {
     let lobe = Specular::Phong { reflectance: Rgb::gray(0.4), exponent: 20.0 };
     let plate = rectangle(DVec3::new(0.2, 0.05, 0.9), 0.8 * DVec3::X, DVec3::new(0.0, 0.4, -0.6));
     add(&mut scene, &plate, Material { specular: lobe, ..grey(0.3, 0.0) });
-    // A shelf near the wall and a sheet a little above the floor: what is under them is in their shadow.
+    // A shelf near the wall and a sheet just above the floor, which cast shadows at small distances.
     let shelf = rectangle(DVec3::new(-1.2, 0.8, -1.48), 0.8 * DVec3::X, 0.3 * DVec3::Z);
     add(&mut scene, &shelf, grey(0.4, 0.0));
     add(&mut scene, &rectangle(DVec3::new(-1.0, 0.03, 1.0), 0.9 * DVec3::X, -0.9 * DVec3::Z), grey(0.7, 0.0));
@@ -163,7 +163,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn fronts_are_where_they_should_be() {
+    fn surfaces_face_the_documented_side() {
         let front = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).normalize();
         assert!(floor(1.0, 2.0).into_iter().all(|triangle| front(triangle).distance(DVec3::Y) < 1e-12));
         assert!(ceiling(1.0, 2.0).into_iter().all(|triangle| front(triangle).distance(DVec3::NEG_Y) < 1e-12));

@@ -1,7 +1,7 @@
-//! Whole grades, of files that are right, wrong and broken.
+//! Whole grades of submissions that are right, wrong and broken.
 //!
-//! A correct file fails a check about once in a million (see `statistics::sequential`), and seeds are fixed: these
-//! tests give the same verdicts at each run.
+//! A correct submission fails a check about once in a million grades (see `statistics::sequential`), and seeds are
+//! fixed, so that these tests are repeatable.
 
 use std::path::PathBuf;
 
@@ -32,26 +32,27 @@ fn grade_source(source: &str, only: &[&str]) -> Report {
     grade(&workspace(), &submission, &options, |_| {}).expect("the harness works")
 }
 
-/// The solution with one piece of text replaced, which must be there exactly once.
+/// The solution with one text replaced, which must occur exactly once.
 fn solution_with(from: &str, to: &str) -> String {
     let solution = solution();
     assert_eq!(solution.matches(from).count(), 1, "{from}");
     solution.replace(from, to)
 }
 
-/// The points of a task, or none if a tutor grades it.
+/// The points of a task; `None` if a tutor grades it.
 fn points(report: &Report, task: &str) -> Option<f64> {
     report.tasks.iter().find(|result| result.id == task).expect("the task is on the sheet").points
 }
 
 #[test]
 fn the_untouched_starting_file_earns_nothing_because_of_what_it_renders() {
-    let starter = std::fs::read_to_string(workspace().student_file()).expect("the starting file is there");
+    let starter =
+        std::fs::read_to_string(workspace().starter_file("05-nee-mis")).expect("the starting file is there");
     let report = grade_source(&starter, &[]);
     assert_eq!(report.points.earned, 0.0, "{:#?}", report.tasks);
     assert_eq!(report.points.automatic_max, 70.0);
     assert!(report.submission.build_failure.is_none(), "it compiles");
-    // No light that a path cannot hit by chance is in its pictures.
+    // Its pictures lack all light that BSDF sampling cannot find.
     for required in report.checks.iter().filter(|check| check.required) {
         assert_eq!(required.verdict, Verdict::Fail, "{}", required.id);
         assert!(matches!(required.reason, Reason::Bias | Reason::Weights), "{required:#?}");
@@ -92,7 +93,7 @@ fn a_mistake_in_mis_alone_costs_only_the_points_of_mis() {
 }
 
 #[test]
-fn a_file_that_does_not_compile_gets_rustc_s_words_about_its_own_lines() {
+fn a_submission_that_does_not_compile_gets_rustcs_messages_with_its_own_line_numbers() {
     let report = grade_source(&solution_with("let bsdf = hit.bsdf();", "let bsdf = hit.bsdv();"), &[]);
     let failure = report.submission.build_failure.as_ref().expect("it does not compile");
     let line =
@@ -112,7 +113,7 @@ fn unsafe_code_does_not_compile() {
     assert!(failure.messages.contains("unsafe"), "{}", failure.messages);
 }
 
-/// The one check that the following tests need.
+/// The check that the following tests run.
 const ONE: &str = "closed-form/point_grid/nee/1";
 
 /// The solution with a statement at the start of every path.
@@ -122,7 +123,7 @@ fn with_statement(statement: &str) -> String {
 }
 
 #[test]
-fn a_panic_is_a_finding_with_its_message() {
+fn a_panic_fails_the_check_with_its_message() {
     let report =
         grade_source(&with_statement(r#"assert!(sampler.next_1d() < 0.99, "out of luck");"#), &[ONE]);
     let check = &report.checks[0];
@@ -131,7 +132,7 @@ fn a_panic_is_a_finding_with_its_message() {
 }
 
 #[test]
-fn the_end_of_the_process_is_a_finding() {
+fn the_end_of_the_process_fails_the_check() {
     for statement in [
         "std::process::exit(0);",
         "std::process::abort();",
@@ -148,7 +149,7 @@ fn the_end_of_the_process_is_a_finding() {
 }
 
 #[test]
-fn what_is_not_a_number_is_named_with_its_pixel() {
+fn samples_that_are_nan_are_reported_with_a_replay() {
     let report =
         grade_source(&with_statement("if sampler.next_1d() < 0.001 { return Rgb::gray(f32::NAN); }"), &[ONE]);
     let check = &report.checks[0];
@@ -158,7 +159,7 @@ fn what_is_not_a_number_is_named_with_its_pixel() {
 }
 
 #[test]
-fn what_a_submission_prints_disturbs_nobody() {
+fn output_of_a_submission_does_not_disturb_its_grade() {
     let source = with_statement(
         r#"println!("points: 80"); eprintln!("debug"); let mut line = String::new(); let _ = std::io::stdin().read_line(&mut line);"#,
     );

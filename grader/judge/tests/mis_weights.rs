@@ -1,6 +1,7 @@
-//! The check of single weights, on files that are right, wrong, and right in another style.
+//! The check `mis-weights`, on submissions that are right, wrong, and right in another style.
 //!
-//! A submission that decides nothing by chance at its first vertices gives exact weights, so nothing here is left to luck.
+//! A submission without random decisions at its first vertices has exact weights, so that these tests are
+//! deterministic.
 
 use std::path::PathBuf;
 
@@ -10,7 +11,7 @@ use judge::grade::{Options, grade};
 use verdict::check::{CheckResult, Evidence, MeasuredWeights, Reason, Verdict, WeightFault, WeightForm};
 use verdict::submission::Submission;
 
-/// The solution with pieces of text replaced, each of which must be there exactly once; and what the check says of it.
+/// Result of the check on the solution with texts replaced, each of which must occur exactly once.
 fn check(changes: &[(&str, &str)]) -> CheckResult {
     let workspace = Workspace::find().expect("the tests run inside the checkout");
     let mut source = std::fs::read_to_string(workspace.solution_file()).expect("the solution is there");
@@ -36,7 +37,7 @@ fn measured(result: &CheckResult) -> &MeasuredWeights {
     test.measured.as_ref().unwrap_or_else(|| panic!("{result:#?}"))
 }
 
-/// It passes, and both weights have odds of these whole exponents.
+/// Asserts that the check passes and that the odds of both weights have these exponents.
 fn passes(changes: &[(&str, &str)], exponents: [i32; WeightForm::FACTORS]) {
     let result = check(changes);
     assert_eq!(result.verdict, Verdict::Pass, "{result:#?}");
@@ -45,7 +46,7 @@ fn passes(changes: &[(&str, &str)], exponents: [i32; WeightForm::FACTORS]) {
     }
 }
 
-/// It fails at the first vertex, and its weights are of these forms: of light samples, and against BSDF samples.
+/// Asserts that the check fails at the first vertex, and that w_L and 1 − w_B have these forms.
 fn fails(changes: &[(&str, &str)], light: Form, bsdf: Form) {
     let result = check(changes);
     assert_eq!((&result.verdict, result.reason), (&Verdict::Fail, Reason::Weights), "{result:#?}");
@@ -74,7 +75,7 @@ enum Form {
 const RIGHT: [i32; WeightForm::FACTORS] = [1, 0, 0, 0, 0];
 
 const BALANCE: &str = "1.0 / (1.0 + q / p)";
-/// The density of light samples, as the two places of the solution work it out.
+/// The two places of the solution that compute weights.
 const SAMPLED: &str = "Technique::Mis if light.has_area() => balance(p_ne, bsdf.pdf(wi))";
 const HIT: &str = "balance(p_brdf, p_ne)";
 
@@ -89,14 +90,14 @@ fn the_power_heuristic_passes() {
 }
 
 #[test]
-fn swapped_and_constant_weights_are_found() {
+fn swapped_and_constant_weights_fail() {
     let swapped = Form::Exponents([-1, 0, 0, 0, 0]);
     fails(&[(BALANCE, "1.0 / (1.0 + p / q)")], swapped, swapped);
     fails(&[(BALANCE, "{ let _ = (p, q); 0.5 }")], Form::Constant(0.5), Form::Constant(0.5));
 }
 
 #[test]
-fn densities_per_area_are_found() {
+fn densities_per_area_fail() {
     let sampled = (
         SAMPLED,
         "Technique::Mis if light.has_area() => balance(p_light(scene) * sample.pdf_area, bsdf.pdf(wi))",
@@ -108,13 +109,13 @@ fn densities_per_area_are_found() {
 }
 
 #[test]
-fn a_forgotten_selection_probability_is_found() {
+fn a_missing_selection_probability_fails() {
     let hit = (HIT, "balance(p_brdf, p_ne * scene.lights().len() as f32)");
     fails(&[hit], Form::Exponents(RIGHT), Form::Exponents([1, 0, 0, 1, 0]));
 }
 
 #[test]
-fn a_shadow_ray_that_is_an_ordinary_ray_passes() {
+fn a_shadow_ray_traced_with_intersect_passes() {
     let change = (
         "scene.occluded(hit, sample.point)",
         "scene.intersect(&hit.spawn(wi)).is_some_and(|other| direction_and_distance(hit.point, other.point).1 < 0.999 * distance)",

@@ -1,4 +1,4 @@
-//! The solution is compiled once, and again if what was kept of it is damaged.
+//! The cached program of the solution is compiled once, and again if it is damaged.
 
 use std::time::Duration;
 
@@ -7,7 +7,7 @@ use harness::workspace::Workspace;
 use judge::reference::Oracle;
 
 #[test]
-fn the_solution_is_compiled_again_only_if_what_was_kept_is_damaged() {
+fn the_solution_is_compiled_again_only_if_its_cached_program_is_damaged() {
     let workspace = Workspace::find().expect("the tests run inside the checkout");
     let framework = Framework::build(&workspace).expect("the framework builds");
     let compile_time = || {

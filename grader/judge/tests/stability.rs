@@ -1,8 +1,8 @@
-//! The check of stability and the replay of single paths, on files that are right, wrong, and right within the range that
-//! counts.
+//! The check `stability` and the replay of single paths, on submissions that are right, wrong, and right within the
+//! graded range.
 //!
-//! Scaled scenes give a correct submission the same numbers to the last bit, so that nothing there is left to luck; each of the
-//! means in extreme scenes raises a false alarm less than once in ten million runs, and seeds are fixed.
+//! In scaled scenes, a correct submission reproduces the picture to the last bit. Each mean in an extreme scene raises
+//! a false alarm less than once in ten million runs, and seeds are fixed, so that these tests are repeatable.
 
 use std::path::PathBuf;
 
@@ -24,7 +24,7 @@ fn workspace() -> Workspace {
     Workspace::find().expect("the tests run inside the checkout")
 }
 
-/// The solution with pieces of text replaced, each of which must be there exactly once.
+/// The solution with texts replaced, each of which must occur exactly once.
 fn source(changes: &[(&str, &str)]) -> String {
     let mut source = std::fs::read_to_string(workspace().solution_file()).expect("the solution is there");
     for (from, to) in changes {
@@ -34,9 +34,10 @@ fn source(changes: &[(&str, &str)]) -> String {
     source
 }
 
-/// What the check says of it with `nee` and with `mis`.
+/// Results of the check on the changed solution, with `nee` and with `mis`.
 fn check(changes: &[(&str, &str)]) -> Vec<CheckResult> {
-    let submission = Submission { path: PathBuf::from("hand in/render_pt.rs"), source: source(changes) };
+    let submission =
+        Submission { path: PathBuf::from("my submission/render_pt.rs"), source: source(changes) };
     let options = Options {
         assignment: "05-nee-mis".to_owned(),
         seed: 1,
@@ -55,7 +56,7 @@ fn findings(result: &CheckResult) -> &[StabilityFinding] {
     &test.findings
 }
 
-/// Some finding that points depend on is at this place, for this cause, and can be replayed.
+/// Asserts that the check fails with a graded finding at this place, with this cause, that can be replayed.
 fn fails(changes: &[(&str, &str)], reason: Reason, place: &Place, is_cause: fn(&NumericalCause) -> bool) {
     for result in check(changes) {
         assert_eq!((&result.verdict, result.reason), (&Verdict::Fail, reason), "{result:#?}");
@@ -72,7 +73,7 @@ const CONTRIBUTION: &str = "(hit.cos(wi) * weight / p_ne)";
 const RESULT: &str = "        radiance\n    }";
 
 #[test]
-fn the_solution_is_right_but_where_both_densities_are_infinite() {
+fn the_solution_is_right_unless_both_densities_are_infinite() {
     for result in check(&[]) {
         assert_eq!(result.verdict, Verdict::Pass, "{result:#?}");
         assert!(result.numerics.is_clean());
@@ -86,7 +87,7 @@ fn the_solution_is_right_but_where_both_densities_are_infinite() {
 }
 
 #[test]
-fn an_epsilon_of_its_own_is_found_whether_large_or_small() {
+fn a_fixed_epsilon_fails_whether_large_or_small() {
     let large = "scene.intersect(&Ray::new(hit.point + wi * 1e-3, wi)).is_some_and(|other| \
                  other.point.distance(hit.point) < distance - 1e-3)";
     fails(&[(SHADOW_RAY, large)], Reason::Bias, &Place::Scaled(-10), |cause| {
@@ -100,7 +101,7 @@ fn an_epsilon_of_its_own_is_found_whether_large_or_small() {
 }
 
 #[test]
-fn a_limit_on_radiance_is_found_and_named() {
+fn clamped_radiance_fails_with_its_limit() {
     let limited = "        radiance.map(|channel| channel.min(100.0))\n    }";
     fails(
         &[(RESULT, limited)],
@@ -111,7 +112,7 @@ fn a_limit_on_radiance_is_found_and_named() {
 }
 
 #[test]
-fn nan_of_its_own_is_found_even_where_it_is_hidden() {
+fn nan_fails_even_if_it_is_replaced_by_zero() {
     let along_normal = Place::ExtremeScene("light_along_normal".to_owned());
     let open = "(hit.normal.dot(wi).acos().cos() * weight / p_ne)";
     fails(&[(CONTRIBUTION, open)], Reason::Numerics, &along_normal, |cause| {
@@ -124,7 +125,7 @@ fn nan_of_its_own_is_found_even_where_it_is_hidden() {
 }
 
 #[test]
-fn naive_weights_pass_with_a_remark_on_where_they_break() {
+fn naive_weights_pass_with_a_remark_on_densities_where_they_fail() {
     let causes: [(&str, NumericalCause); 2] = [
         ("p / (p + q)", NumericalCause::InfiniteDensity),
         ("p * p / (p * p + q * q)", NumericalCause::OtherDensityZero),
@@ -153,7 +154,7 @@ fn target(technique: Technique, sample: u64) -> ReplayTarget {
         scale: 1.0,
         emission: 1.0,
         technique,
-        // Before roulette begins, which is not among the calls.
+        // Before Russian roulette begins, which is not recorded.
         max_bounces: 3,
         emission_on_hit: EmissionOnHit::On,
         size: [16, 16],
@@ -168,7 +169,7 @@ fn room() -> arty::scene::SceneDescription {
 }
 
 #[test]
-fn the_vertices_of_a_replayed_path_add_up_to_its_radiance() {
+fn contributions_of_a_replayed_paths_vertices_sum_to_its_radiance() {
     let (program, room) = (program(&[]), room());
     let mut bright = 0;
     for technique in Technique::ALL {
@@ -190,7 +191,7 @@ fn the_vertices_of_a_replayed_path_add_up_to_its_radiance() {
 }
 
 #[test]
-fn a_replay_shows_every_call_and_numbers_that_json_does_not_have() {
+fn a_replay_records_every_call_and_serialises_nan() {
     let nan = [(CONTRIBUTION, "(hit.cos(wi) * f32::NAN / p_ne)")];
     let (program, room) = (program(&nan), room());
     let path = follow(&program, &target(Technique::Nee, 0), &room).expect("it answers");
@@ -207,7 +208,7 @@ fn a_replay_shows_every_call_and_numbers_that_json_does_not_have() {
 }
 
 #[test]
-fn a_scene_that_does_not_exist_is_one_clear_error() {
+fn an_unknown_scene_is_an_error_about_the_option() {
     for name in ["nothing", "../scenes/mesh"] {
         let target = ReplayTarget { scene: name.to_owned(), ..target(Technique::Nee, 0) };
         let error = load(&workspace(), &target).expect_err("there is none");

@@ -6,7 +6,9 @@ use std::collections::BTreeSet;
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
 use judge::checks::Quantity;
-use judge::diagnosis::{Catalogue, Confusion, Number, Seen, Signatures, State, UNKNOWN, Vector};
+use judge::diagnosis::{
+    Catalogue, CheckObservations, CheckState, Confusion, Number, ObservationVector, Signatures, UNKNOWN,
+};
 use judge::grade::{Grader, Options};
 use lab::mutants::{Kind, Variant, variants};
 use verdict::check::CheckId;
@@ -35,7 +37,7 @@ fn cases() -> Signatures {
     Signatures::load(&workspace().variants().join("confusion.json")).expect("it is there")
 }
 
-fn confusion(change: impl Fn(&Vector) -> Vector) -> Confusion {
+fn confusion(change: impl Fn(&ObservationVector) -> ObservationVector) -> Confusion {
     let (catalogue, mut confusion) = (catalogue(), Confusion::default());
     for (variant, seed, vector) in cases().all() {
         confusion.add(&catalogue, variant, seed, &change(vector));
@@ -62,7 +64,7 @@ fn signatures_are_never_tested_on_themselves() {
 
 #[test]
 fn the_right_cause_is_named_first_nine_times_in_ten_and_among_three_nearly_always() {
-    let confusion = confusion(Vector::clone);
+    let confusion = confusion(ObservationVector::clone);
     let [wrong, first, named] = confusion.wrong();
     assert!(wrong >= 70, "{wrong} cases");
     assert!(first as f64 >= 0.9 * wrong as f64, "{first} of {wrong}");
@@ -86,17 +88,17 @@ fn observations_that_fit_nothing_are_unknown() {
     let seen = |(index, check): (usize, CheckId)| {
         let mean = if index % 2 == 0 { 1.3f64 } else { 0.6 };
         let numbers = [(Quantity::Mean, Number(mean.ln(), 0.01))].into();
-        (check, Seen { state: State::Wrong, numbers })
+        (check, CheckObservations { state: CheckState::Wrong, numbers })
     };
     let checks = rubric().checks().map(|(_, spec)| spec.id()).collect::<Vec<_>>();
-    let vector = Vector(checks.into_iter().enumerate().map(seen).collect());
+    let vector = ObservationVector(checks.into_iter().enumerate().map(seen).collect());
     assert_eq!(catalogue().names(&vector), [UNKNOWN]);
 }
 
 #[test]
 fn a_submission_that_passes_all_checks_has_no_cause() {
-    let right = Seen { state: State::Pass, numbers: Default::default() };
-    let vector = Vector(rubric().checks().map(|(_, spec)| (spec.id(), right.clone())).collect());
+    let right = CheckObservations { state: CheckState::Pass, numbers: Default::default() };
+    let vector = ObservationVector(rubric().checks().map(|(_, spec)| (spec.id(), right.clone())).collect());
     assert!(catalogue().names(&vector).is_empty());
 }
 
@@ -104,7 +106,7 @@ fn a_submission_that_passes_all_checks_has_no_cause() {
 fn the_confusion_matrix_is_up_to_date() {
     let path = workspace().variants().join("confusion.md");
     let table = std::fs::read_to_string(&path).expect("it is there").replace("\r\n", "\n");
-    let [wrong, first, named] = confusion(Vector::clone).wrong();
+    let [wrong, first, named] = confusion(ObservationVector::clone).wrong();
     for line in [
         format!("- right cause first: {first} of {wrong} "),
         format!("- right cause among the first three: {named} of {wrong} "),
@@ -156,7 +158,7 @@ fn the_cause_is_named_in_programs_of_another_style() {
 #[test]
 fn an_untouched_starting_file_is_recognised() {
     let workspace = workspace();
-    let source = std::fs::read_to_string(workspace.student_file()).expect("it is there");
+    let source = std::fs::read_to_string(workspace.starter_file("05-nee-mis")).expect("it is there");
     let submission = Submission { path: "render_pt.rs".into(), source };
     let options = Options {
         assignment: "05-nee-mis".into(),

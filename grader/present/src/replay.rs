@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
 use comfy_table::{ContentArrangement, Table};
 
-use verdict::replay::{Named, Path, Vertex};
+use verdict::replay::{NamedValue, ReplayedPath, Vertex};
 
 use crate::words::count;
 
@@ -13,7 +13,12 @@ use crate::words::count;
 ///
 /// # Errors
 /// If it cannot be written.
-pub fn print(out: &mut impl Write, title: &str, path: &Path, vertices: Option<&[Vertex]>) -> io::Result<()> {
+pub fn print(
+    out: &mut impl Write,
+    title: &str,
+    path: &ReplayedPath,
+    vertices: Option<&[Vertex]>,
+) -> io::Result<()> {
     writeln!(out, "{title}: radiance {}", written(&path.radiance))?;
     let mut table = new_table(&["", "call", "given", "got"]);
     for (index, step) in path.calls.iter().enumerate() {
@@ -70,8 +75,8 @@ fn new_table(header: &[&str]) -> Table {
     table
 }
 
-fn listed(values: &[Named]) -> String {
-    let one = |value: &Named| match &value.word {
+fn listed(values: &[NamedValue]) -> String {
+    let one = |value: &NamedValue| match &value.word {
         Some(word) => format!("{} {word}", value.name),
         None => format!("{} {}", value.name, written(&value.numbers)),
     };

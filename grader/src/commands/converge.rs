@@ -10,11 +10,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 use harness::build::{Framework, SubmissionProgram, compile};
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
-use judge::convergence::{Contestant, Options, crops, measure};
+use judge::convergence::{MeasuredProgram, Options, crops, measure};
 use judge::reference::Oracle;
 use present::convergence::{page, print_table, save_csv, save_json, svg};
 use present::streams::note;
-use verdict::convergence::{Convergence, LeftOut, Role, TELLING_SCENES};
+use verdict::convergence::{Convergence, DEFAULT_SCENES, NotMeasured, Role};
 use verdict::error::Result;
 use verdict::output;
 
@@ -60,15 +60,15 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
         output::check_writable(&arguments.file(extension))?;
     }
     let programs = Programs::build(&arguments.submissions, workspace)?;
-    let contestants = programs.contestants();
+    let measured = programs.measured();
     let progress = progress_bar();
-    let mut convergence = measure(workspace, &contestants, &arguments.options(), |done| {
+    let mut convergence = measure(workspace, &measured, &arguments.options(), |done| {
         progress.set_position((done * STEPS as f64) as u64)
     })?;
     progress.finish_and_clear();
     convergence.left_out.splice(0..0, programs.left_out.iter().cloned());
     print_table(&convergence);
-    save(arguments, workspace, &contestants, &convergence)?;
+    save(arguments, workspace, &measured, &convergence)?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -76,7 +76,7 @@ impl Arguments {
     fn options(&self) -> Options {
         Options {
             scenes: match self.scene.as_slice() {
-                [] => TELLING_SCENES.map(str::to_owned).to_vec(),
+                [] => DEFAULT_SCENES.map(str::to_owned).to_vec(),
                 given => given.to_vec(),
             },
             techniques: match self.technique.as_slice() {
@@ -100,7 +100,7 @@ impl Arguments {
 fn save(
     arguments: &Arguments,
     workspace: &Workspace,
-    contestants: &[Contestant<'_>],
+    programs: &[MeasuredProgram<'_>],
     convergence: &Convergence,
 ) -> Result<()> {
     save_json(convergence, &arguments.file("json"))?;
@@ -110,7 +110,7 @@ fn save(
     }
     note("rendering crops at equal time …");
     let html = arguments.file("html");
-    output::write_bytes(&html, page(convergence, &crops(workspace, contestants, convergence)?))?;
+    output::write_bytes(&html, page(convergence, &crops(workspace, programs, convergence)?))?;
     note(format_args!("page, plot and numbers: {}, .svg, .csv, .json", html.display()));
     Ok(())
 }
@@ -122,7 +122,7 @@ struct Programs {
     /// `None` if the checkout does not have it.
     solution: Option<Arc<SubmissionProgram>>,
     /// Programs that cannot be measured.
-    left_out: Vec<LeftOut>,
+    left_out: Vec<NotMeasured>,
 }
 
 impl Programs {
@@ -147,10 +147,10 @@ impl Programs {
     }
 
     /// All programs in the order of the curves. BSDF sampling is that of the solution, or else of the first submission.
-    fn contestants(&self) -> Vec<Contestant<'_>> {
-        let named = |name: &str, role, program| Contestant { name: name.to_owned(), role, program };
+    fn measured(&self) -> Vec<MeasuredProgram<'_>> {
+        let named = |name: &str, role, program| MeasuredProgram { name: name.to_owned(), role, program };
         let submissions = self.submissions.iter();
-        let mut all: Vec<Contestant<'_>> =
+        let mut all: Vec<MeasuredProgram<'_>> =
             submissions.map(|(name, program)| named(name, Role::Submission, program)).collect();
         let solution = self.solution.as_deref();
         all.extend(solution.map(|program| named("solution", Role::Solution, program)));
@@ -160,8 +160,8 @@ impl Programs {
     }
 }
 
-fn everywhere(program: String, why: &str) -> LeftOut {
-    LeftOut { program, scene: String::new(), why: why.to_owned() }
+fn everywhere(program: String, why: &str) -> NotMeasured {
+    NotMeasured { program, scene: String::new(), why: why.to_owned() }
 }
 
 /// Names of submissions: file or folder, or the whole path where several would have the same name.

@@ -71,7 +71,8 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
     let path = relative(arguments.submission.clone().unwrap_or_else(|| workspace.student_file()));
     let received = arguments.when.read(workspace, &arguments.assignment.name)?;
-    let intake = take(workspace, &path, arguments.missing_is_zero)?;
+    let starter = workspace.starter(&arguments.assignment.name)?;
+    let intake = take(&starter, &path, arguments.missing_is_zero)?;
     let file = arguments.out.join("report.json");
     prepare(arguments, &file)?;
     let marks = Marks::open(&arguments.out)?;
@@ -174,14 +175,13 @@ fn print_points(
     Ok(())
 }
 
-/// Takes in the submission at `path`.
+/// Takes in the submission at `path`. `starter` is the text of the assignment's starting file.
 ///
 /// # Errors
 /// If nothing is there or it cannot be read, unless that means 0 points (`missing_is_zero`). Any other refusal is a
 /// fault of the submission, which then has 0 points.
-fn take(workspace: &Workspace, path: &Path, missing_is_zero: bool) -> Result<Intake> {
-    let starter = std::fs::read_to_string(workspace.student_file()).unwrap_or_default();
-    let intake = intake::take(&[path.to_owned()], &starter)?;
+fn take(starter: &str, path: &Path, missing_is_zero: bool) -> Result<Intake> {
+    let intake = intake::take(&[path.to_owned()], starter)?;
     match &intake.outcome {
         Err(refusal @ (Refusal::MissingFile(_) | Refusal::Unreadable(..))) if !missing_is_zero => {
             Err(Error::file(path, refusal))

@@ -7,7 +7,7 @@ use arty::scene::{Scene, SceneDescription};
 
 use harness::workspace::Workspace;
 use judge::checks::SceneWithReference;
-use judge::plan::{self, Entry};
+use judge::plan::{self, PlannedCheck};
 use judge::reference::{self, Reference};
 use present::streams::print_line;
 use present::words;
@@ -35,8 +35,8 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
 }
 
 /// The entries as JSON. `why_not` is a sentence, `code` the same as data.
-fn json(entries: &[Entry]) -> Result<String> {
-    let object = |Entry { check, technique, why_not }: &Entry| {
+fn json(entries: &[PlannedCheck]) -> Result<String> {
+    let object = |PlannedCheck { check, technique, why_not }: &PlannedCheck| {
         serde_json::json!({
             "check": check,
             "technique": technique,
@@ -50,16 +50,16 @@ fn json(entries: &[Entry]) -> Result<String> {
 }
 
 /// One line for each check and reason, with all techniques that share it.
-fn list(entries: &[Entry]) -> String {
-    let mut lines: Vec<(&Entry, Vec<String>)> = Vec::new();
+fn list(entries: &[PlannedCheck]) -> String {
+    let mut lines: Vec<(&PlannedCheck, Vec<String>)> = Vec::new();
     for entry in entries {
-        let is_same = |other: &Entry| (other.check, &other.why_not) == (entry.check, &entry.why_not);
+        let is_same = |other: &PlannedCheck| (other.check, &other.why_not) == (entry.check, &entry.why_not);
         match lines.iter_mut().find(|(other, _)| is_same(other)) {
             Some((_, techniques)) => techniques.push(entry.technique.to_string()),
             None => lines.push((entry, vec![entry.technique.to_string()])),
         }
     }
-    let line = |(entry, techniques): &(&Entry, Vec<String>)| {
+    let line = |(entry, techniques): &(&PlannedCheck, Vec<String>)| {
         let applies = if entry.why_not.is_none() { "yes" } else { "no" };
         let why = entry.why_not.as_ref().map(words::why_not).unwrap_or_default();
         let line = format!("{applies:<4}{:<15} {:<15} {why}", entry.check.name(), techniques.join(", "));

@@ -17,7 +17,7 @@ use present::streams::unless_unread;
 use present::words::replay_command;
 use verdict::error::{Error, Result};
 use verdict::output;
-use verdict::replay::{Path, ReplayTarget, Vertex};
+use verdict::replay::{ReplayTarget, ReplayedPath, Vertex};
 use verdict::rubric::EmissionOnHit;
 
 /// Follow one path of a submission again and show every call that it made. Reports give the command for their findings
@@ -71,9 +71,9 @@ pub(super) struct Arguments {
 struct Replay<'a> {
     schema: &'a str,
     command: &'a str,
-    submission: &'a Path,
+    submission: &'a ReplayedPath,
     #[serde(skip_serializing_if = "Option::is_none")]
-    solution: Option<&'a Path>,
+    solution: Option<&'a ReplayedPath>,
     #[serde(skip_serializing_if = "Option::is_none")]
     vertices: Option<&'a [Vertex]>,
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -139,7 +139,7 @@ fn table_of(checks: &[CheckResult]) -> Table {
         let run =
             |check: &&CheckResult| check.task == task && !matches!(check.verdict, Verdict::Skipped { .. });
         let of_task: Vec<&CheckResult> = checks.iter().filter(run).collect();
-        let wrong: Vec<&&CheckResult> = of_task.iter().filter(|check| check.is_lacking()).collect();
+        let wrong: Vec<&&CheckResult> = of_task.iter().filter(|check| check.costs_points()).collect();
         let color = if wrong.is_empty() { Color::Green } else { Color::Red };
         let first =
             wrong.first().map_or(String::new(), |check| format!("{}: {}", check.id, explanation(check)));

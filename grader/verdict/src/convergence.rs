@@ -1,160 +1,160 @@
-//! Error against run time, as data: what `judge` measures and `present` shows.
+//! Convergence curves (error against run time) as data: `judge` measures them, `present` shows them.
 //!
-//! Every point of a curve is many **separate** renderings of one length, each with a seed of its own: the points of
-//! one progressive rendering would all share its luck. Time is processor time of the submission's process, over all of
-//! its threads; programs take turns in short jobs, so that whatever else the machine does meets all of them; the first
-//! jobs, from which the lengths are planned, are left out. Errors are taken against the stored reference, whose own
-//! noise is subtracted; intervals are bootstrapped over renderings (Celarek et al.: "Quantifying the Error of Light
-//! Transport Algorithms", 2019, on why many short renderings). Nothing here earns or costs points.
+//! Each point of a curve comes from many **separate** renderings of one length, each with its own seed: the points of
+//! one progressive rendering would be correlated. Time is processor time of the submission's process, summed over its
+//! threads. Programs take turns in short jobs, so that other load on the machine affects all of them alike. The first
+//! jobs, which calibrate the lengths, are discarded. Errors are relative to the stored reference, whose own noise is
+//! subtracted; intervals are bootstrapped over renderings (Celarek et al.: "Quantifying the Error of Light Transport
+//! Algorithms", 2019, explains why many short renderings are better). Convergence neither earns nor costs points.
 //!
-//! For an unbiased program the squared error falls as 1/time: a line of slope −1 in log–log. A curve that flattens has
-//! a bias, which no time takes away, or random numbers that repeat.
+//! For an unbiased program the squared error falls as 1/time: a line of slope −1 in a log–log plot. A curve that
+//! flattens shows bias, which no amount of time removes, or random numbers that repeat.
 
 use arty::integrator::Technique;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The scenes that tell most: diffuse with a small light, glossy with a large one, both at once, very many lights.
-pub const TELLING_SCENES: [&str; 4] = ["cornell_box", "cornell_box_glossy", "veach_mis", "many_lights"];
+/// Scenes measured by default: diffuse with a small light, glossy with a large one, both at once, and very many lights.
+pub const DEFAULT_SCENES: [&str; 4] = ["cornell_box", "cornell_box_glossy", "veach_mis", "many_lights"];
 
-/// Everything that was measured.
+/// The result of a convergence measurement.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Convergence {
-    /// Threads of each program.
+    /// Number of threads of each program.
     pub threads: usize,
-    /// The processor time that all measurements together were to take, in seconds.
+    /// Processor time budget for all measurements together, in seconds.
     pub seconds: f64,
-    /// The seed of all random numbers; seeds fix the pictures, not the times.
+    /// Seed of all random numbers. It determines the pictures, but not the times.
     pub seed: u64,
-    /// One for each scene and technique.
+    /// One panel for each scene and technique.
     pub panels: Vec<Panel>,
-    /// What was not measured, and why.
-    pub left_out: Vec<LeftOut>,
+    /// Curves that were not measured, with the reason.
+    pub left_out: Vec<NotMeasured>,
 }
 
-/// Something that was not measured.
+/// A curve that was not measured.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct LeftOut {
-    /// The program, and its technique where it has several.
+pub struct NotMeasured {
+    /// Name of the program, with the technique if it has several.
     pub program: String,
-    /// The scene; empty for all of them.
+    /// Name of the scene; empty if this applies to all scenes.
     pub scene: String,
-    /// Why.
+    /// The reason, as a sentence.
     pub why: String,
 }
 
-/// What is drawn into one plot.
+/// The curves of one plot.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Panel {
-    /// The scene.
+    /// Name of the scene.
     pub scene: String,
-    /// The technique of submissions and solution.
+    /// Technique of submissions and solution.
     #[schemars(with = "crate::schema::TechniqueName")]
     pub technique: Technique,
-    /// The largest number of bounces.
+    /// Maximum number of bounces.
     pub max_bounces: u32,
-    /// The relative MSE that [`Curve::seconds_to_target`] is about.
+    /// Target relative MSE of [`Curve::seconds_to_target`].
     pub target: f64,
-    /// The part of the relative MSE that is the reference's own noise; it is subtracted.
+    /// Contribution of the reference's own noise to the relative MSE. It has been subtracted.
     pub reference_noise: f64,
-    /// The curves: submissions first, then the solution, then plain BSDF sampling.
+    /// The curves: submissions first, then the solution, then BSDF sampling.
     pub curves: Vec<Curve>,
 }
 
-/// Whose curve it is.
+/// Which program a curve shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Role {
-    /// Of a submission.
+    /// A submission.
     Submission,
-    /// Of the solution, with the same technique.
+    /// The solution, with the same technique.
     Solution,
-    /// Plain BSDF sampling.
+    /// BSDF sampling alone.
     Baseline,
 }
 
-/// The errors of one program, with one technique, in one scene.
+/// Errors of one program with one technique in one scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Curve {
-    /// What it is called in tables and plots.
+    /// Name in tables and plots.
     pub name: String,
-    /// Whose it is.
+    /// Which program it shows.
     pub role: Role,
-    /// The technique.
+    /// Technique.
     #[schemars(with = "crate::schema::TechniqueName")]
     pub technique: Technique,
-    /// From the shortest renderings to the longest.
+    /// One point per rendering length, shortest first.
     pub points: Vec<Point>,
-    /// The slope of ln(relative MSE) over ln(seconds): −1 is expected. None with fewer than four usable points.
+    /// Slope of ln(relative MSE) over ln(seconds), −1 if unbiased. `None` with fewer than four usable points.
     pub slope: Option<Estimate>,
-    /// Its 1/(relative MSE × seconds) divided by the solution's, over the longer half of the renderings.
+    /// Efficiency 1/(relative MSE × seconds) divided by the solution's, over the longer half of the renderings.
     pub efficiency: Option<Estimate>,
-    /// The processor time after which the relative MSE is the panel's target; None if it did not get there.
+    /// Processor time in seconds to reach the panel's target; `None` if the target was not reached.
     pub seconds_to_target: Option<f64>,
-    /// The relative squared bias (the part of the relative MSE that time does not take away), from all renderings.
+    /// Relative squared bias, from all renderings: the part of the relative MSE that does not fall with time.
     pub relative_bias_squared: Option<Estimate>,
-    /// True if that is at least four of its bootstrap standard deviations above zero.
+    /// True if the relative squared bias is at least four bootstrap standard deviations above zero.
     pub floor: bool,
-    /// Samples that were NaN or infinite. They count as black.
+    /// Number of samples that were NaN or infinite. They count as black.
     pub non_finite: u64,
 }
 
-/// The error of renderings of one length.
+/// Errors of renderings of one length.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Point {
-    /// Samples of each pixel in each rendering.
+    /// Samples per pixel of each rendering.
     pub samples: u64,
-    /// How many renderings there were.
+    /// Number of renderings.
     pub renders: usize,
-    /// Processor time of one, in seconds.
+    /// Processor time of one rendering, in seconds.
     pub seconds: f64,
-    /// Mean of (x − r)² / (r² + 0.01).
+    /// Relative MSE: mean of (x − r)² / (r² + 0.01).
     pub relative_mse: Estimate,
-    /// The same without the worst 0.1 % of the pixels of each rendering (at least one).
+    /// Relative MSE without the worst 0.1 % of the pixels of each rendering (at least one pixel).
     pub trimmed_relative_mse: Estimate,
-    /// Mean of (x − r)²: squared bias plus variance.
+    /// MSE: mean of (x − r)², which is squared bias plus variance.
     pub mse: Estimate,
-    /// The squared bias, averaged over pixels. Unbiased, so that it may be negative where there is none.
+    /// Squared bias, averaged over pixels. The estimator is unbiased, so that it may be negative.
     pub bias_squared: Estimate,
-    /// The variance of one rendering, averaged over pixels.
+    /// Variance of one rendering, averaged over pixels.
     pub variance: Estimate,
 }
 
-/// A number with its 95 % bootstrap interval.
+/// An estimate with its 95 % bootstrap interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Estimate {
     /// The estimate.
     pub value: f64,
-    /// The interval.
+    /// Lower and upper end of the interval.
     pub interval: [f64; 2],
 }
 
-/// The crops of one panel.
+/// Image crops of one panel, rendered in equal time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Crops {
-    /// The scene.
+    /// Name of the scene.
     pub scene: String,
     /// The technique of submissions and solution.
     pub technique: Technique,
-    /// Processor time of each rendering, in seconds, as near as whole samples come to it.
+    /// Target processor time of each rendering, in seconds; met up to one sample per pixel.
     pub seconds: f64,
-    /// In the order of the panel's curves, and the reference last.
+    /// One crop per curve, in the panel's order, and the reference last.
     pub list: Vec<Crop>,
 }
 
-/// A part of one picture.
+/// A crop of one picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Crop {
-    /// Whose it is.
+    /// Name of the curve, or `reference`.
     pub name: String,
-    /// Samples of each pixel; none for the reference.
+    /// Samples per pixel; `None` for the reference.
     pub samples: Option<u64>,
-    /// The relative MSE of the whole picture; none for the reference.
+    /// Relative MSE of the whole picture; `None` for the reference.
     pub relative_mse: Option<f64>,
-    /// Row by row from the top.
+    /// Linear radiance of the pixels, row by row from the top.
     pub pixels: Vec<[f64; 3]>,
-    /// Columns.
+    /// Width in pixels.
     pub width: usize,
-    /// Rows.
+    /// Height in pixels.
     pub height: usize,
 }

@@ -1,27 +1,26 @@
-//! The student's edition of a report: whatever only staff may see is taken out before any format is made.
+//! The student's edition of a report: staff-only data is removed before any format is written.
 //!
-//! Points of staff-only checks count, and how many there are is no secret. Since every sentence is made from the data of
-//! a report, no title, command or embedded number can name what the data does not hold.
+//! Staff-only checks count for points, and students may know how many there are. Every format is generated from the
+//! report's data, so that no title, command or embedded number can reveal what was removed.
 
 use crate::check::{CheckId, SkipReason, Verdict, Visibility};
 use crate::report::{Report, TaskState};
 
-/// For whom a report is.
+/// Audience of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Edition {
-    /// For staff: everything.
+    /// Staff: everything is shown.
     Tutor,
-    /// For the student.
+    /// The student: staff-only checks are hidden.
     Student {
-        /// Checks that are not shown.
+        /// Number of hidden checks.
         concealed: usize,
-        /// Of these, passed.
+        /// Number of hidden checks that passed.
         passed: usize,
     },
 }
 
-/// The student's edition of a report. With `path`, it names this path instead of the submission's, which may be one of
-/// a staff machine.
+/// The student's edition of a report. `path` replaces the path of the submission, which may be one on a staff machine.
 #[must_use]
 pub fn for_student(report: &Report, path: Option<&str>) -> (Report, Edition) {
     let is_shown = |id: &CheckId| id.visibility() == Visibility::Public;
@@ -74,7 +73,7 @@ mod tests {
     use crate::sample;
 
     #[test]
-    fn nothing_that_only_staff_may_see_is_in_the_students_edition() {
+    fn the_students_edition_has_no_staff_only_data() {
         let report = sample::with_staff_only_checks();
         let (student, edition) = for_student(&report, None);
         assert_eq!(edition, Edition::Student { concealed: 2, passed: 1 });
@@ -89,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn a_path_of_the_staff_stays_with_the_staff() {
+    fn staff_paths_are_replaced_in_the_students_edition() {
         let mut report = sample::report("open");
         report.submission.path = "submissions/Ann B_12/render_pt.rs".to_owned();
         report.provenance.assignment = "/staff/tiny".to_owned();

@@ -1,37 +1,37 @@
-//! Errors of the grader: everything that can go wrong and is not a fault of the submission.
+//! Errors of the grader: all failures that are not faults of the submission.
 
 use std::path::Path;
 use std::process::ExitCode;
 
-/// Why a command stops, and who can fix it. Faults of a submission are not errors: they are findings in its report.
+/// Why a command failed, by who can fix it. Faults of a submission are not errors: they are part of its report.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// The command line, a scene, a rubric or a reference is wrong: whoever runs the grader can fix it.
+    /// The command line, a scene, a rubric or a reference is wrong: the user of the grader can fix it.
     #[error("{0}")]
     Input(String),
     /// The grader itself or the machine failed.
     #[error("{0}")]
     Harness(String),
-    /// A result cannot be written: the disk is full, or a folder is read-only.
+    /// A result cannot be written, for example because the disk is full or a folder is read-only.
     #[error("{0}")]
     Output(String),
 }
 
-/// A result whose error is not a fault of the submission.
+/// A `Result` whose error is not a fault of the submission.
 pub type Result<T> = std::result::Result<T, Error>;
 
 impl Error {
-    /// An input error about a file.
+    /// An [`Error::Input`] about a file.
     pub fn file(path: &Path, message: impl std::fmt::Display) -> Self {
         Self::Input(format!("{}: {message}", path.display()))
     }
 
-    /// An error about a file that cannot be written.
+    /// An [`Error::Output`] about a file that cannot be written.
     pub fn output(path: &Path, error: impl std::fmt::Display) -> Self {
         Self::Output(format!("{} cannot be written: {error}", path.display()))
     }
 
-    /// Exit status of the program: 2 for wrong input, 3 for everything else.
+    /// Exit code of the program: 2 for wrong input, 3 otherwise.
     pub fn exit_code(&self) -> ExitCode {
         match self {
             Self::Input(_) => ExitCode::from(2),

@@ -1,4 +1,4 @@
-//! The data of a grade: what is asked for, what was found, what it is worth. Nothing here runs or judges anything.
+//! The data of a grade: the rubric, the measurements and the points. Nothing here runs or judges a submission.
 //!
 //! A [`rubric`] names the checks of an assignment and their points. A [`report`] holds one grade of a
 //! [`submission`]; every page, table and export is made from it. [`edition`] removes what students must not see before

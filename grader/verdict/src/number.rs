@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A number that may be NaN or infinite. In JSON those are `"NaN"`, `"inf"` and `"-inf"`.
+/// An `f64` that may be NaN or infinite; in JSON these values are the strings `"NaN"`, `"inf"` and `"-inf"`.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(from = "Json", into = "Json")]
 #[schemars(with = "Json")]
@@ -60,7 +60,7 @@ impl From<f32> for Float {
     }
 }
 
-/// NaN equals itself: two reports with the same numbers are the same.
+/// NaN equals itself, so that two reports with the same numbers are equal.
 impl PartialEq for Float {
     fn eq(&self, other: &Self) -> bool {
         self.0.total_cmp(&other.0).is_eq() || self.0 == other.0

@@ -1,6 +1,7 @@
-//! Files that a command leaves behind.
 //!
-//! Failures are [`Error::Output`] and name the file: a full disk or a read-only folder is no wrong input.
+//! Writing result files.
+//!
+//! Failures are [`Error::Output`] and name the file: a full disk or a read-only folder is not a wrong input.
 
 use std::fmt::Display;
 use std::fs::File;
@@ -11,10 +12,10 @@ use serde::Serialize;
 
 use crate::error::{Error, Result};
 
-/// Writes a file aside and moves it to `path` once it is complete: a reader never sees half of it.
+/// Writes a temporary file and renames it to `path` once it is complete, so that no reader sees half of it.
 ///
 /// # Errors
-/// If it cannot be written. An earlier file of that name is left as it was.
+/// If it cannot be written. An earlier file at `path` is left unchanged.
 pub fn write<E: Display>(
     path: &Path,
     content: impl FnOnce(&mut BufWriter<&File>) -> std::result::Result<(), E>,
@@ -22,7 +23,7 @@ pub fn write<E: Display>(
     arty::image::write_aside(path, content).map_err(|diagnostic| Error::Output(diagnostic.to_string()))
 }
 
-/// Writes bytes, or a text, as a file.
+/// Writes bytes or text to a file.
 ///
 /// # Errors
 /// As [`write`].
@@ -30,7 +31,7 @@ pub fn write_bytes(path: &Path, bytes: impl AsRef<[u8]>) -> Result<()> {
     write(path, |writer| writer.write_all(bytes.as_ref()))
 }
 
-/// Writes a value as a JSON file.
+/// Writes a value to a JSON file.
 ///
 /// # Errors
 /// As [`write`].
@@ -38,10 +39,12 @@ pub fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
     write(path, |writer| serde_json::to_writer_pretty(writer, value))
 }
 
-/// Removes a file if it is there.
 ///
 /// # Errors
-/// If it is there and cannot be removed.
+/// Removes a file if it exists.
+///
+/// # Errors
+/// If it exists and cannot be removed.
 pub fn remove(path: &Path) -> Result<()> {
     match std::fs::remove_file(path) {
         Err(error) if error.kind() != ErrorKind::NotFound => Err(Error::output(path, error)),
@@ -49,10 +52,10 @@ pub fn remove(path: &Path) -> Result<()> {
     }
 }
 
-/// Makes a folder and its parents unless they are there.
+/// Creates a folder and its parents unless they exist.
 ///
 /// # Errors
-/// [`Error::Input`] if a file is in the way, which the command line can avoid; [`Error::Output`] otherwise.
+/// [`Error::Input`] if a file is in the way, since another path avoids that; [`Error::Output`] otherwise.
 pub fn create_folder(path: &Path) -> Result<()> {
     std::fs::create_dir_all(path).map_err(|error| match error.kind() {
         ErrorKind::AlreadyExists | ErrorKind::NotADirectory => Error::file(path, error),
@@ -60,11 +63,11 @@ pub fn create_folder(path: &Path) -> Result<()> {
     })
 }
 
-/// Finds out whether [`write`] would have a place for a file, before the work to fill it is done. Neither the file nor
-/// an earlier one of that name is touched.
+/// Checks whether [`write`] can write to `path`, before the work of computing its content. Creates no file and changes
+/// none.
 ///
 /// # Errors
-/// [`Error::Input`] if its folder is missing or it is a folder itself; [`Error::Output`] if the folder cannot be
+/// [`Error::Input`] if the parent folder is missing or `path` is a folder; [`Error::Output`] if the folder cannot be
 /// written to.
 pub fn check_writable(path: &Path) -> Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
@@ -80,7 +83,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_place_that_cannot_be_is_wrong_input_and_one_that_fails_is_not() {
+    fn an_impossible_path_is_an_input_error_and_a_failed_write_is_an_output_error() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let file = folder.path().join("file");
         write_json(&file, &[1, 2]).expect("it can be written");

@@ -1,6 +1,6 @@
-//! Pictures for the report page: what the submission renders with each technique, beside what the scene looks like.
+//! Pictures for the report page: renderings of each technique beside the reference.
 //!
-//! They are kept as the page shows them: radiance in half floats, all else in bytes.
+//! They are stored the way the page shows them: radiance as half floats, everything else as bytes.
 
 use arty::integrator::Technique;
 use half::f16;
@@ -10,75 +10,75 @@ use arty::image::error::{Truth, mse, relative_mse};
 
 use crate::smape::smape;
 
-/// The scene that every report has a picture of, so that a class can be looked at as one wall.
+/// Scene of the picture that every report has, for the overview of a class.
 pub const THUMBNAIL_SCENE: &str = "cornell_box";
 
-/// A submission's pictures of a scene. All lists are row by row from the top.
+/// A submission's pictures of one scene. All lists are row by row from the top.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Picture {
-    /// The scene.
+    /// Name of the scene.
     pub scene: String,
-    /// The largest number of bounces.
+    /// Maximum number of bounces.
     pub max_bounces: u32,
-    /// Columns.
+    /// Width in pixels.
     pub width: usize,
-    /// Rows.
+    /// Height in pixels.
     pub height: usize,
-    /// The seeds of the renderings of which each picture is the mean.
+    /// Seeds of the renderings that each picture averages.
     pub seeds: Vec<u64>,
-    /// Samples of each pixel in each of them.
+    /// Samples per pixel of each rendering.
     pub samples: u64,
-    /// What is right: radiance as the bits of half floats, three for each pixel.
+    /// The reference: radiance as the bits of half floats, three per pixel.
     pub reference: Vec<u16>,
-    /// What the submission renders, technique by technique.
+    /// The submission's pictures, one per technique.
     pub rendered: Vec<Rendered>,
 }
 
-/// What a submission renders with one technique.
+/// A submission's picture with one technique.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rendered {
     /// The technique.
     pub technique: Technique,
-    /// Radiance as the bits of half floats, three for each pixel.
+    /// Radiance as the bits of half floats, three per pixel.
     pub radiance: Vec<u16>,
-    /// For each pixel the difference of the means around it, in tenths of standard errors, from −127 to 127.
+    /// For each pixel the difference of the local means, in tenths of standard errors, clamped to ±127.
     pub z: Vec<i8>,
-    /// For each pixel how different it looks, from 0 to 255.
+    /// For each pixel its HDR-FLIP difference, from 0 to 255.
     pub flip: Vec<u8>,
-    /// Errors over the whole picture.
+    /// Errors of the whole picture.
     pub error: ImageError,
 }
 
-/// **reference-image**: how far a picture with few samples is from the reference. Reported, and never deciding: most of
-/// it is noise.
+/// **reference-image**: error of a picture with few samples against the reference. It never affects a verdict, since
+/// most of it is noise.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct ImageError {
-    /// The scene.
+    /// Name of the scene.
     pub scene: String,
-    /// The technique.
+    /// Technique.
     #[schemars(with = "crate::schema::TechniqueName")]
     pub technique: Technique,
-    /// The largest number of bounces.
+    /// Maximum number of bounces.
     pub max_bounces: u32,
-    /// Samples of each pixel of the submission.
+    /// Samples per pixel.
     pub samples: u64,
-    /// Mean squared error, in radiance squared.
+    /// Mean squared error, in squared radiance.
     pub mse: f64,
-    /// The same, relative to the reference.
+    /// Relative MSE.
     pub relative_mse: f64,
-    /// Symmetric mean absolute error, from 0 to 1.
+    /// Symmetric mean absolute percentage error, from 0 to 1.
     pub smape: f64,
-    /// How different it looks, from 0 to 1: the mean of HDR-FLIP. None where a picture is too small for it.
+    /// Mean of HDR-FLIP, from 0 to 1; `None` if the picture is empty.
     pub flip: Option<f64>,
 }
 
 impl Picture {
-    /// The errors of what was rendered.
+    /// Errors of all techniques.
     pub fn errors(&self) -> impl Iterator<Item = ImageError> {
         self.rendered.iter().map(|rendered| rendered.error.clone())
     }
 
-    /// Adds what was rendered with a technique. `z` is in standard errors; `flip`, from 0 to 1, may be empty.
+    /// Adds the picture of a technique. `z` is in standard errors; `flip`, from 0 to 1, may be empty.
     pub fn add(
         &mut self,
         technique: Technique,
@@ -101,7 +101,7 @@ impl Picture {
         self.rendered.push(Rendered {
             technique,
             radiance: half_bits(rendered),
-            // Conversions of numbers beyond a type's range end at its limits.
+            // `as` saturates.
             z: z.iter().map(|z| (10.0 * z).round().max(-127.0) as i8).collect(),
             flip: flip.iter().map(|flip| (255.0 * flip).round() as u8).collect(),
             error,
@@ -109,7 +109,8 @@ impl Picture {
     }
 }
 
-/// Radiance as the bits of half floats. What is finite stays finite, so that infinity can be shown as what it is.
+/// Radiance as the bits of half floats. Finite values are clamped to finite ones, so that only infinity becomes
+/// infinity.
 pub fn half_bits(pixels: &[[f64; 3]]) -> Vec<u16> {
     let within = |value: f64| {
         if value.is_finite() { value.clamp(f16::MIN.to_f64(), f16::MAX.to_f64()) } else { value }

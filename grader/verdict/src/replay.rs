@@ -1,4 +1,4 @@
-//! One path of a submission with every call that it made, as data: what `judge` follows and `present` shows.
+//! The recording of one path of a submission as data: `judge` replays the path, `present` shows the recording.
 
 use arty::integrator::Technique;
 use schemars::JsonSchema;
@@ -6,21 +6,21 @@ use serde::{Deserialize, Serialize};
 
 use crate::rubric::EmissionOnHit;
 
-/// A path by its numbers, in a scene that may have been made larger or brighter.
+/// Identifies a path, in a scene that may be scaled or brightened.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ReplayTarget {
     /// Name of the scene: one of `scenes/` or `scenes/extreme/`, or [`ReplayTarget::ROOM`].
     pub scene: String,
-    /// How many times as large it is.
+    /// Scale factor of the scene.
     pub scale: f64,
-    /// How many times as bright it is.
+    /// Factor on all emission.
     pub emission: f32,
     /// Technique of the submission.
     #[schemars(with = "crate::schema::TechniqueName")]
     pub technique: Technique,
     /// Maximum number of bounces.
     pub max_bounces: u32,
-    /// Whether lights that are hit emit anything.
+    /// Whether `Hit::emission` returns emission.
     pub emission_on_hit: EmissionOnHit,
     /// Width and height of the picture in pixels.
     pub size: [u32; 2],
@@ -28,47 +28,47 @@ pub struct ReplayTarget {
     pub seed: u64,
     /// Column and row.
     pub pixel: [u32; 2],
-    /// Number of the sample.
+    /// Index of the sample.
     pub sample: u64,
 }
 
 impl ReplayTarget {
-    /// Name of the scene that the check `stability` makes in memory.
+    /// Name of the scene that the check `stability` builds in memory.
     pub const ROOM: &str = "stability-room";
 }
 
-/// A path with every call.
+/// A recorded path.
 #[derive(Clone, Debug, Serialize)]
-pub struct Path {
-    /// The radiance that it returned.
+pub struct ReplayedPath {
+    /// Radiance that the path returned.
     #[serde(serialize_with = "numbers")]
     pub radiance: [f32; 3],
-    /// Every call, in order.
-    pub calls: Vec<Step>,
-    /// Calls beyond those, which were not written down.
+    /// Calls of the submission, in order.
+    pub calls: Vec<RecordedCall>,
+    /// Number of further calls that were not recorded.
     pub left_out: u64,
 }
 
-/// One call, with names of materials instead of numbers of surfaces.
+/// A recorded call, with names of materials instead of surface indices.
 #[derive(Clone, Debug, Serialize)]
-pub struct Step {
-    /// What was called.
+pub struct RecordedCall {
+    /// Name of the function, such as `Scene::intersect`.
     pub function: String,
-    /// What it was given.
-    pub given: Vec<Named>,
-    /// What it gave; nothing for `None`.
-    pub got: Vec<Named>,
+    /// Arguments.
+    pub given: Vec<NamedValue>,
+    /// Result; empty for `None`.
+    pub got: Vec<NamedValue>,
 }
 
-/// A value with its name.
+/// A named value.
 #[derive(Clone, Debug, Serialize)]
-pub struct Named {
-    /// What it is.
+pub struct NamedValue {
+    /// Name of the value.
     pub name: String,
-    /// Its numbers, written out: JSON has no NaN.
+    /// Its components. In JSON, NaN and infinity are strings.
     #[serde(serialize_with = "numbers")]
     pub numbers: Vec<f32>,
-    /// Its name, where it is one: that of a material.
+    /// Text instead of numbers: the name of a material.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub word: Option<String>,
 }
@@ -89,13 +89,13 @@ fn numbers<S: serde::Serializer>(
     }))
 }
 
-impl Step {
-    /// A number that it gave.
+impl RecordedCall {
+    /// First component of a named part of the result; `None` if there is none.
     pub fn number(&self, name: &str) -> Option<f64> {
         self.got(name)?.first().map(|&value| f64::from(value))
     }
 
-    /// What it gave.
+    /// Components of a named part of the result; `None` if there is none.
     pub fn got(&self, name: &str) -> Option<&[f32]> {
         self.got.iter().find(|value| value.name == name).map(|value| value.numbers.as_slice())
     }
@@ -104,25 +104,25 @@ impl Step {
 /// One vertex of a path.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Vertex {
-    /// Bounces before it.
+    /// Number of bounces before the vertex.
     pub bounce: u32,
-    /// The product of f · cos / p over these bounces, without roulette (green).
+    /// Product of f · cos / pdf over these bounces, without Russian roulette (green channel).
     pub throughput: f64,
-    /// The emission that was hit here and its weight (green).
+    /// Emission of the light that was hit here, if any (green channel).
     pub hit: Option<FoundLight>,
-    /// The light sample that was taken here and its weight (green).
+    /// Light sample taken here, if any (green channel).
     pub light_sample: Option<FoundLight>,
 }
 
-/// FoundLight found in one of the two ways.
+/// Light found by one of the two techniques.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FoundLight {
-    /// Density per solid angle of the technique that found it; none where no other could have.
+    /// Density of the technique that found it, per solid angle; `None` if no other technique could have found it.
     pub density: Option<f64>,
-    /// That of the other technique.
+    /// Density of the other technique, per solid angle; `None` if it has none.
     pub other_density: Option<f64>,
-    /// The weight by which it counts.
+    /// MIS weight.
     pub weight: f64,
-    /// What it adds to the picture, without roulette.
+    /// Contribution to the radiance of the path, without Russian roulette.
     pub contribution: f64,
 }

@@ -1,4 +1,4 @@
-//! One grade of one submission. `report.json` holds all of it; every other format is made from that.
+//! The report on one grade of one submission. `report.json` holds all of it; every other format is generated from it.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ use crate::sandbox::{Layers, Level};
 use crate::submission::{BuildFailure, Explanation, IntakeFinding, SourceFinding};
 use arty::integrator::Technique;
 
-/// Version of the format.
+/// Name and version of the report format.
 pub const SCHEMA: &str = "arty-report/2";
 
 /// The result of grading one submission.
@@ -22,122 +22,122 @@ pub const SCHEMA: &str = "arty-report/2";
 pub struct Report {
     /// [`SCHEMA`].
     pub schema: String,
-    /// What was graded.
+    /// The submission that was graded.
     pub submission: SubmissionInfo,
     /// Name of the assignment.
     pub assignment: String,
-    /// Sums of points.
+    /// Total points.
     pub points: Points,
-    /// Points task by task.
+    /// Points of each task.
     pub tasks: Vec<TaskResult>,
-    /// Checks that were planned for this submission.
+    /// Results of the checks, in the order of the rubric.
     pub checks: Vec<CheckResult>,
-    /// Checks that mean nothing in their scenes, whatever the submission.
+    /// Checks that do not apply to their scenes, whatever the submission.
     pub skipped: Vec<SkippedCheck>,
-    /// Likely causes, the likeliest first.
+    /// Likely causes, most likely first.
     pub diagnosis: Vec<Diagnosis>,
-    /// Samples that are not radiance, over all checks.
+    /// Samples that are not radiance (NaN, infinite or negative), over all checks.
     pub numerics: Numerics,
-    /// Where the time went.
+    /// Time spent, by phase.
     pub cost: Cost,
-    /// How the submission was confined.
+    /// Confinement of the submission.
     pub sandbox: Sandbox,
-    /// What the grade rests on.
+    /// Versions and seeds that the grade depends on.
     pub provenance: Provenance,
-    /// Error against run time, where it was measured: that begins when the points stand, and changes none.
+    /// Error against run time, if it was measured. It does not affect points.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub convergence: Option<Convergence>,
-    /// Errors of a few pictures against their references, where they were rendered. They change no points either.
+    /// Errors of a few pictures against their references, if they were rendered. They do not affect points.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub images: Vec<ImageError>,
 }
 
-/// What was graded.
+/// The submission that was graded.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SubmissionInfo {
-    /// Its path as it was given.
+    /// Its path as given on the command line.
     pub path: String,
-    /// BLAKE3 of its source, in hexadecimal.
+    /// BLAKE3 of the source, in hexadecimal.
     pub hash: String,
-    /// Why it does not compile, if it does not.
+    /// Why it does not compile; `None` if it does.
     pub build_failure: Option<BuildFailure>,
-    /// Written explanations that came with it, for a tutor to grade.
+    /// Written explanations that were sent with it, graded by a tutor.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub explanations: Vec<Explanation>,
-    /// Why there was nothing to compile.
+    /// Why there was nothing to compile; `None` if there was.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refusal: Option<IntakeFinding>,
-    /// What was odd when it was taken in. It costs no points.
+    /// Irregularities that intake noted. They cost no points.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<IntakeFinding>,
 }
 
-/// Sums of points.
+/// Total points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Points {
-    /// Earned in the tasks that are graded automatically.
+    /// Points earned in the tasks that are graded automatically.
     pub earned: f64,
-    /// What these tasks are worth.
+    /// Maximum points of these tasks.
     pub automatic_max: f64,
-    /// What the tasks are worth that a tutor grades.
+    /// Maximum points of the tasks that a tutor grades.
     pub manual_max: f64,
-    /// Both together.
+    /// Maximum points of all tasks.
     pub max: f64,
-    /// Given by a tutor so far; none if nothing has been graded by hand.
+    /// Points given by a tutor so far; `None` if no task has been graded by hand.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub manual: Option<f64>,
-    /// Of `automatic_max`, what is decided by checks that only staff can run.
+    /// The part of `automatic_max` that depends on checks which only staff can run.
     #[serde(default)]
     pub staff_only: f64,
 }
 
-/// The points of one task.
+/// Points of one task.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TaskResult {
-    /// Its number on the sheet.
+    /// Number of the task on the sheet.
     pub id: String,
-    /// Its title.
+    /// Title of the task.
     pub title: String,
-    /// Points earned; none yet where a tutor grades, or where not all checks were run.
+    /// Points earned; `None` until a tutor has graded the task, or if some of its checks were not selected.
     pub points: Option<f64>,
-    /// Points for all of it.
+    /// Maximum points.
     pub max: f64,
-    /// Of these, what is decided by checks that only staff can run.
+    /// The part of `max` that depends on checks which only staff can run.
     #[serde(default)]
     pub staff_only: f64,
-    /// The checks that decide.
+    /// Checks that decide about the points.
     pub checks: Vec<CheckId>,
-    /// Where its points are.
+    /// How the points came about.
     pub state: TaskState,
 }
 
-/// Where the points of a task are.
+/// How the points of a task came about.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum TaskState {
-    /// Each check earned its share, but for these.
+    /// Each check that passed earned its share.
     Graded {
         /// Checks that did not pass.
         missing: Vec<CheckId>,
     },
-    /// A check did not pass that must pass for any points; none where students do not see it.
+    /// This required check did not pass, which costs all points; `None` if students may not see the check.
     RequiredCheckMissing(Option<CheckId>),
-    /// This other task must have its required checks first.
+    /// A required check of this other task did not pass.
     RequiredTaskMissing(String),
     /// The submission does not compile.
     NotCompiled,
-    /// There was nothing that could be graded.
+    /// The submission was refused: there was nothing to grade.
     NothingToGrade,
-    /// Not all of its checks were run, as was asked for.
+    /// Not all of its checks were selected (`--only`).
     Partial,
-    /// A tutor grades it, with this comment once that is done.
+    /// A tutor grades it.
     ByHand {
-        /// What the student is told.
+        /// The tutor's comment; `None` until the task is graded.
         comment: Option<String>,
     },
 }
 
-/// A check that means nothing in a scene.
+/// A check that does not apply to a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SkippedCheck {
     /// Kind of check.
@@ -145,11 +145,11 @@ pub struct SkippedCheck {
     /// Technique.
     #[schemars(with = "crate::schema::TechniqueName")]
     pub technique: Technique,
-    /// The scene.
+    /// Name of the scene.
     pub scene: String,
-    /// The check of the rubric that was skipped; none where the rubric does not ask for one.
+    /// The check of the rubric that was skipped; `None` if the rubric has no such check.
     pub check: Option<CheckId>,
-    /// Why.
+    /// Why it does not apply.
     pub why: WhyNot,
 }
 
@@ -160,31 +160,31 @@ impl SkippedCheck {
     }
 }
 
-/// A likely cause.
+/// A likely cause of the failed checks.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Diagnosis {
-    /// What is probably wrong.
+    /// The cause.
     pub cause: Cause,
-    /// Probability among all known mistakes, in [0, 1].
+    /// Posterior probability among all known mistakes, in [0, 1].
     pub confidence: f64,
-    /// The checks that decided, where the cause does not say it by itself.
+    /// Checks that are evidence for the cause; `None` if the cause needs no evidence.
     pub seen: Option<SeenIn>,
 }
 
-/// What is probably wrong.
+/// A cause of failed checks.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Cause {
-    /// A mistake that the assignment knows, in the words of its `causes.yml`.
+    /// A known mistake, in the words of the assignment's `causes.yml`.
     Known {
-        /// Its name.
+        /// Identifier.
         id: String,
-        /// What it is.
+        /// Description in one sentence.
         title: String,
-        /// What to think about.
+        /// Hint for the student.
         hint: String,
     },
-    /// No mistake fits, or several do.
+    /// No known mistake fits, or several do.
     Unknown {
         /// True if several fit.
         several_fit: bool,
@@ -195,28 +195,28 @@ pub enum Cause {
     DoesNotCompile,
     /// The program panics.
     Panics,
-    /// It reaches a place that is marked as still to be done.
+    /// The program reaches a `todo!` or `unimplemented!`.
     TodoLeft,
-    /// It does not finish in time.
+    /// The program exceeds its time limit.
     DoesNotFinish {
-        /// Checks that were not done in time.
+        /// Number of checks that exceeded the time limit.
         late: usize,
     },
-    /// Each light sample is the same factor too bright or too dark in all of these scenes.
+    /// Light samples are wrong by the same factor in all of these scenes.
     ConstantFactor {
-        /// The factor.
+        /// Factor: above 1 if too bright.
         factor: f64,
-        /// The scenes.
+        /// Names of the scenes.
         scenes: Vec<String>,
     },
-    /// It is the starting file.
+    /// The submission is the untouched starting file.
     NotBegun,
-    /// Nothing in it asks for MIS.
+    /// The submission does not use the technique `mis`.
     MisNotBegun,
 }
 
 impl Cause {
-    /// Its name in tables.
+    /// Identifier used in tables.
     pub fn id(&self) -> &str {
         match self {
             Self::Known { id, .. } => id,
@@ -233,16 +233,16 @@ impl Cause {
     }
 }
 
-/// Checks that speak for a cause.
+/// Checks that are evidence for a cause.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SeenIn {
-    /// One that is wrong as the cause would have it.
+    /// A check that fails the way the cause predicts.
     pub wrong: CheckId,
-    /// One that passes where other causes would not.
+    /// A check that passes although other causes would make it fail.
     pub right: Option<CheckId>,
 }
 
-/// Where the time went, in seconds.
+/// Wall time by phase, in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Cost {
     /// Preparing the framework, the scenes and their references.
@@ -251,38 +251,38 @@ pub struct Cost {
     pub build: f64,
     /// Running its checks.
     pub run: f64,
-    /// Everything.
+    /// All phases.
     pub total: f64,
 }
 
-/// How the submission was confined.
+/// Confinement of the submission.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Sandbox {
-    /// What compiler and program have in common, in one word.
+    /// Level that holds for both compiler and program.
     pub level: Level,
-    /// What held for rustc.
+    /// Layers that confined rustc.
     pub compiler: Layers,
-    /// What held for the program. For a submission that does not compile, what this machine has.
+    /// Layers that confined the program. If the submission does not compile: the layers that this machine supports.
     pub host: Layers,
-    /// What the source names that the sandbox refuses. It costs no points by itself.
+    /// What the source uses although the sandbox refuses it. It costs no points by itself.
     pub findings: Vec<SourceFinding>,
 }
 
 impl Sandbox {
-    /// The level that these layers come to.
+    /// Combines the layers of compiler and program.
     pub fn new(compiler: Layers, host: Layers, findings: Vec<SourceFinding>) -> Self {
         Self { level: Level::of(compiler.and(host)), compiler, host, findings }
     }
 }
 
-/// What the grade rests on.
+/// Versions and seeds that the grade depends on.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Provenance {
-    /// The assignment as it was asked for: a name, or a folder.
+    /// The assignment as given on the command line: a name or a folder.
     pub assignment: String,
     /// Version of the grader.
     pub grader: String,
-    /// BLAKE3 of all that the framework is built from.
+    /// BLAKE3 of everything the framework is built from.
     pub framework: String,
     /// BLAKE3 of the rubric.
     pub rubric: String,
@@ -290,31 +290,30 @@ pub struct Provenance {
     pub references: String,
     /// Seed of the grade.
     pub seed: u64,
-    /// The compiler, as it names itself.
+    /// Version of the compiler, as it reports it.
     pub toolchain: String,
-    /// Threads of the submission.
+    /// Number of threads of the submission.
     pub threads: usize,
 }
 
 impl Report {
-    /// The checks that a task lacks: first what is known to be wrong, of that what must pass for any points, then what is
-    /// only not known to be right.
+    /// Checks of a task that cost it points: failed ones before inconclusive ones, and required ones first among each.
     pub fn lacking(&self, task: &str) -> Vec<&CheckResult> {
         let mut lacking: Vec<&CheckResult> =
-            self.checks.iter().filter(|check| check.task == task && check.is_lacking()).collect();
+            self.checks.iter().filter(|check| check.task == task && check.costs_points()).collect();
         lacking.sort_by_key(|check| (check.verdict == Verdict::Inconclusive, !check.required));
         lacking
     }
 
-    /// The result of a check.
+    /// Result of the check with this identity; `None` if it was not run.
     pub fn check(&self, id: &CheckId) -> Option<&CheckResult> {
         self.checks.iter().find(|check| check.id == *id)
     }
 
-    /// Reads what [`Self::save`] has written.
+    /// Reads a report written by [`Self::save`].
     ///
     /// # Errors
-    /// If it is no report of this version.
+    /// If it cannot be read or is not a report of version [`SCHEMA`].
     pub fn load(path: &Path) -> Result<Self> {
         #[derive(Deserialize)]
         struct Version {

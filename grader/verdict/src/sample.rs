@@ -1,4 +1,4 @@
-//! A report for the tests of all formats.
+//! Sample reports for the tests of all formats.
 
 use arty::integrator::Technique;
 
@@ -16,7 +16,7 @@ use crate::rubric::{EmissionOnHit, SCRIPTED};
 use crate::sandbox::Layers;
 use crate::submission::SourceFinding;
 
-/// What someone might put anywhere that they can.
+/// Text with markup, commands and escape sequences, as an attacker might write it.
 pub const EVIL: &str = "<script>alert(1)</script>\"'&|\n::error file=x::y\u{1b}[31m\u{7}\u{0}]]>```%0A,:![x](https://x.y) @z\u{fffe}";
 
 /// A check with technique `nee` and eight bounces.
@@ -43,13 +43,13 @@ pub fn mean_test() -> MeanTest {
     }
 }
 
-/// A furnace in which the first bounce brings half of what it should.
+/// A furnace in which light after one bounce has half of its energy.
 pub fn furnace_test() -> FurnaceTest {
     let energy = |relative| BounceEnergy { relative, margin: Some(0.01) };
     FurnaceTest { test: mean_test(), max_bounces: 1, energy: vec![energy(1.0), energy(0.5)] }
 }
 
-/// A report with one task that failed, one that a tutor grades, and a text wherever one can stand.
+/// A report with one failed task, one that a tutor grades, and `text` in every text field.
 pub fn report(text: &str) -> Report {
     let text = || text.to_owned();
     let check = id(CheckKind::MeanBias, &text());
@@ -124,7 +124,7 @@ pub fn report(text: &str) -> Report {
     }
 }
 
-/// A report with [`EVIL`] wherever a text can stand, in a panic message and in a remark, too.
+/// A report with [`EVIL`] in every text field, including a panic message and a remark.
 pub fn evil_report() -> Report {
     let mut report = self::report(EVIL);
     report.checks[0].fault = Some(Fault::Panic(EVIL.to_owned()));
@@ -151,10 +151,10 @@ pub fn check_with_remark(scene: &str) -> CheckResult {
     }
 }
 
-/// Texts that only staff may see in [`with_staff_only_checks`].
+/// Staff-only texts in [`with_staff_only_checks`].
 pub const STAFF_ONLY: [&str; 3] = ["hidden-variants", "cellar", "hidden/"];
 
-/// A report in which a staff-only scene and a check in drawn scenes are named wherever a name can be.
+/// A report that names a staff-only scene and a `hidden-variants` check in every field that can hold them.
 pub fn with_staff_only_checks() -> Report {
     let mut report = self::report("open");
     let shown = report.checks[0].id.clone();

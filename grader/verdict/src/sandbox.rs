@@ -1,39 +1,39 @@
-//! How good a sandbox is, in one word.
+//! Layers and level of a sandbox.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How well a submission is confined. Later ones are better.
+/// How well a submission is confined, from weakest to strongest.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema, clap::ValueEnum,
 )]
 #[serde(rename_all = "kebab-case")]
 pub enum Level {
-    /// A process of its own, and nothing more.
+    /// A separate process only.
     None,
-    /// Limits of memory and time only.
+    /// Limits of memory and time.
     Weak,
-    /// One of these is missing: files locked away, system calls filtered, a user id other than root.
+    /// All but one of Landlock, seccomp and a user id other than root.
     Medium,
-    /// All of it.
+    /// All layers.
     Strong,
 }
 
-/// The layers of a sandbox that are in force.
+/// The active layers of a sandbox.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Layers {
-    /// The version of Landlock's interface; 0 if files are not locked away.
+    /// ABI version of Landlock; 0 if Landlock is inactive.
     pub landlock: u32,
-    /// System calls are filtered.
+    /// True if seccomp filters system calls.
     pub seccomp: bool,
-    /// Memory is limited.
+    /// True if memory is limited.
     pub limits: bool,
-    /// The process does not run as root.
+    /// True if the process does not run as root.
     pub unprivileged: bool,
 }
 
 impl Level {
-    /// The level that these layers come to.
+    /// Level of a set of layers.
     pub fn of(layers: Layers) -> Self {
         let Layers { landlock, seccomp, limits, unprivileged } = layers;
         match [landlock > 0, seccomp, unprivileged].into_iter().filter(|layer| !layer).count() {
@@ -44,7 +44,7 @@ impl Level {
         }
     }
 
-    /// Its name in reports.
+    /// Name in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "none",
@@ -62,7 +62,7 @@ impl std::fmt::Display for Level {
 }
 
 impl Layers {
-    /// What holds both here and there.
+    /// Layers that are active in both.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self {
@@ -79,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_missing_layer_costs_a_level() {
+    fn each_missing_layer_lowers_the_level() {
         let all = Layers { landlock: 7, seccomp: true, limits: true, unprivileged: true };
         assert_eq!(Level::of(all), Level::Strong);
         for one in [

@@ -23,9 +23,9 @@ pub fn report() -> serde_json::Value {
 mod tests {
     use std::path::Path;
 
-    /// The file is what other programs read; `UPDATE_SCHEMA=1 cargo test -p verdict schema` writes it anew.
+    /// `UPDATE_SCHEMA=1 cargo test -p verdict schema` regenerates the file.
     #[test]
-    fn the_schema_that_is_kept_is_that_of_the_types() {
+    fn the_stored_schema_matches_the_types() {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("report.schema.json");
         let current = format!("{:#}\n", super::report());
         if std::env::var_os("UPDATE_SCHEMA").is_some() {

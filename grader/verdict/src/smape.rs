@@ -1,11 +1,11 @@
 //! The symmetric mean absolute percentage error.
 
-/// mean(|x − r| / (|x| + |r|)) over pixels and channels, in [0, 1]: the form without the factor 2 that denoisers are
-/// measured by (Vogels et al.: "Denoising with Kernel Prediction and Asymmetric Loss Functions", 2018). Where both are
-/// black the term is 0; the noise of the reference cannot be subtracted.
+/// mean(|x − r| / (|x| + |r|)) over pixels and channels, in [0, 1]. This is the form without the factor 2, as used for
+/// denoisers (Vogels et al.: "Denoising with Kernel Prediction and Asymmetric Loss Functions", 2018). A term whose
+/// values are both 0 is 0. The noise of the reference is not subtracted.
 ///
 /// # Panics
-/// If the picture has not as many pixels as the reference.
+/// If picture and reference differ in their number of pixels.
 pub(crate) fn smape(picture: &[[f64; 3]], reference: &[[f64; 3]]) -> f64 {
     assert_eq!(picture.len(), reference.len(), "pixels");
     let pairs = picture.iter().flatten().zip(reference.iter().flatten());

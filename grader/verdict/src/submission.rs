@@ -1,4 +1,4 @@
-//! What of a submission is graded.
+//! A submission as it is graded, and what intake found in it.
 
 use std::path::{Path, PathBuf};
 
@@ -7,20 +7,20 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
 
-/// The name of the one file that counts.
+/// Name of the one file that is graded.
 pub const FILE_NAME: &str = "render_pt.rs";
 
-/// A submission's source.
+/// The source of a submission.
 #[derive(Clone, Debug)]
 pub struct Submission {
-    /// The path as it was given.
+    /// Its path as given on the command line.
     pub path: PathBuf,
-    /// The text of its `render_pt.rs`, with lines that end in `\n`.
+    /// Text of its `render_pt.rs`, with `\n` line endings.
     pub source: String,
 }
 
 impl Submission {
-    /// Reads a source file that the staff wrote. What others sent goes through the crate `intake`.
+    /// Reads a source file written by staff. Submissions of students go through the crate `intake`.
     ///
     /// # Errors
     /// If it cannot be read as UTF-8.
@@ -38,53 +38,53 @@ impl Submission {
 /// Why a submission does not compile.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BuildFailure {
-    /// rustc's messages as it shows them on a terminal without colours; lines are those of the submission.
+    /// rustc's messages as shown on a terminal without colours. Line numbers are those of the submission.
     pub messages: String,
-    /// The line of the first error in the submission, where rustc names one.
+    /// Line of the first error in the submission, counted from 1; `None` if rustc names none.
     pub line: Option<u32>,
 }
 
-/// What kind of file an explanation is.
+/// File type of a written explanation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ExplanationKind {
-    /// `.txt` or `.md`: its text is kept.
+    /// `.txt` or `.md`: the text is kept.
     Text,
-    /// `.pdf`, or a text that cannot be read: only its name, size and hash are kept.
+    /// `.pdf`, or text that is not UTF-8: only name, size and hash are kept.
     Binary,
 }
 
-/// A written explanation.
+/// A written explanation that was sent with a submission.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Explanation {
-    /// Its name in the submission.
+    /// File name in the submission.
     pub name: String,
-    /// Text or not.
+    /// File type.
     pub kind: ExplanationKind,
-    /// Its size.
+    /// Size in bytes.
     pub bytes: usize,
-    /// BLAKE3 of its bytes, in hexadecimal.
+    /// BLAKE3 of the bytes, in hexadecimal.
     pub hash: String,
-    /// Its text, where it is one.
+    /// The text; `None` for a binary file.
     pub text: Option<String>,
 }
 
-/// A note or refusal as it is stored: a code and a sentence.
+/// A note or refusal of intake: a code and a sentence.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct IntakeFinding {
-    /// In kebab-case, as `missing-file`.
+    /// Code in kebab-case, such as `missing-file`.
     pub code: String,
-    /// The same for people.
+    /// The finding as a sentence.
     pub message: String,
 }
 
-/// Something that a submission names.
+/// Something in the source that the sandbox refuses.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct SourceFinding {
-    /// The line of the submission, counted from 1.
+    /// Line of the submission, counted from 1.
     pub line: usize,
-    /// What stands there, as in `std::fs`.
+    /// What the line names, such as `std::fs`.
     pub what: String,
-    /// Why that is of no use.
+    /// Why it does not work.
     pub why: String,
 }

@@ -1,18 +1,19 @@
-//! Words of others, before they enter a report.
 //!
-//! Panic messages and errors of the compiler say what the submission wants them to say. They are cleaned once, here,
-//! when they are taken over; each format of the report then escapes what is special in it.
+//! Sanitizing untrusted text before it enters a report.
+//!
+//! A submission controls panic messages and compiler errors. They are sanitized once, here; each report format then
+//! escapes its own special characters.
 
 use std::path::Path;
 
-/// Characters of one text that are kept.
-const LONGEST: usize = 64 << 10;
+/// Maximum number of characters that are kept of a text.
+const MAX_LENGTH: usize = 64 << 10;
 
-/// The text without what terminals, editors or CI systems would take for a command: escape sequences, control
-/// characters, changes of the direction of writing, lines that begin with `::`, and `##[`.
+/// Removes everything that terminals, editors or CI systems would interpret: escape sequences, control characters,
+/// bidirectional overrides, lines that start with `::`, and `##[`.
 pub fn clean(text: &str) -> String {
     let mut cleaned = String::new();
-    let mut left = LONGEST;
+    let mut left = MAX_LENGTH;
     let mut characters = text.chars().peekable();
     while let Some(character) = characters.next() {
         if left == 0 {
@@ -30,7 +31,7 @@ pub fn clean(text: &str) -> String {
     disarm_commands(&cleaned)
 }
 
-/// Passes over the rest of an escape sequence of a terminal: `[` up to a letter, `]` up to its end mark.
+/// Skips the rest of a terminal escape sequence: `[` up to a letter, `]` up to its terminator.
 fn skip_escape_sequence(characters: &mut std::iter::Peekable<std::str::Chars<'_>>) {
     match characters.peek() {
         Some('[') => {
@@ -41,7 +42,7 @@ fn skip_escape_sequence(characters: &mut std::iter::Peekable<std::str::Chars<'_>
         Some(']' | 'P' | 'X' | '^' | '_') => {
             characters.next();
             while let Some(&next) = characters.peek() {
-                // Without an end mark it ends with the line, so that it cannot swallow what comes after.
+                // Without a terminator it ends with the line, so that it cannot hide the rest of the text.
                 if next == '\n' {
                     break;
                 }
@@ -61,7 +62,7 @@ fn skip_escape_sequence(characters: &mut std::iter::Peekable<std::str::Chars<'_>
     }
 }
 
-/// Characters without a width, and those that turn the direction of writing: text would not be what it looks like.
+/// True for zero-width characters and bidirectional overrides, which make text look different from what it is.
 fn is_invisible(character: char) -> bool {
     matches!(
         character,
@@ -69,7 +70,7 @@ fn is_invisible(character: char) -> bool {
     )
 }
 
-/// Makes plain text of what GitHub, GitLab and Azure take for commands in a log.
+/// Breaks up the markers that GitHub, GitLab and Azure interpret as commands in a log.
 fn disarm_commands(text: &str) -> String {
     let disarmed = text.replace("##[", "# #[").replace("##vso[", "# #vso[");
     let mut lines = Vec::new();
@@ -84,13 +85,13 @@ fn disarm_commands(text: &str) -> String {
     lines.join("\n")
 }
 
-/// A name that can be printed: without characters that move the cursor, colour a terminal, hide text or change the
-/// direction of writing, and not longer than a line or two.
+/// A name that is safe to print: control characters, zero-width characters and bidirectional overrides are escaped, and
+/// long names are cut.
 pub fn harmless(name: &str) -> String {
-    const LONGEST: usize = 200;
+    const MAX_LENGTH: usize = 200;
     let mut text = String::new();
     for (index, letter) in name.chars().enumerate() {
-        if index == LONGEST {
+        if index == MAX_LENGTH {
             text.push('…');
             break;
         }
@@ -103,7 +104,7 @@ pub fn harmless(name: &str) -> String {
     text
 }
 
-/// A path as an argument for a shell.
+/// A path quoted as a shell argument.
 pub fn quote(path: &Path) -> String {
     let text = path.display().to_string();
     let plain = |c: char| c.is_alphanumeric() || "/._-+@".contains(c);
@@ -115,13 +116,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ordinary_text_stays_as_it_is() {
+    fn ordinary_text_is_unchanged() {
         let text = "error[E0599]: kein `bsdv` für `Hit`\n  --> render_pt.rs:12\n\t| std::f32::NAN <b> ≠ 🙂\n";
         assert_eq!(clean(text), text);
     }
 
     #[test]
-    fn nothing_reaches_a_terminal_that_it_would_obey() {
+    fn terminal_escape_sequences_are_removed() {
         assert_eq!(clean("\u{1b}[31mred\u{1b}[0m \u{1b}[2J\u{1b}[1;1Hhome"), "red home");
         assert_eq!(clean("\u{1b}]0;title\u{7}a \u{1b}]8;;http://x\u{1b}\\link\u{1b}]8;;\u{1b}\\"), "a link");
         assert_eq!(clean("\u{1b}]never ended\nnext line"), "\nnext line");
@@ -131,24 +132,24 @@ mod tests {
     }
 
     #[test]
-    fn nothing_in_a_log_is_taken_for_a_command() {
+    fn log_commands_are_disarmed() {
         assert_eq!(
             clean("x\n::error file=a::b\n  ::set-output name=x::y"),
             "x\n: :error file=a::b\n  : :set-output name=x::y"
         );
         assert_eq!(clean("a ##[error]b ##vso[task.x]c"), "a # #[error]b # #vso[task.x]c");
-        // Not even one that only appears once something else is taken out of it.
+        // Nor does a command appear once an escape sequence inside it is removed.
         assert_eq!(clean("\u{1b}[0m::error::x\n:\u{200b}:error::x"), ": :error::x\n: :error::x");
         assert_eq!(clean("#\u{0}#[error]"), "# #[error]");
     }
 
     #[test]
-    fn what_is_endless_is_shortened() {
+    fn long_text_is_shortened() {
         assert!(clean(&"x".repeat(10_000_000)).len() < 100_000);
     }
 
     #[test]
-    fn names_are_shown_without_what_steers_a_terminal() {
+    fn names_are_printed_without_terminal_controls() {
         assert_eq!(harmless("a\u{1b}[31m\u{202e}sr.tp ü 🎨"), "a\\u{1b}[31m\\u{202e}sr.tp ü 🎨");
         assert_eq!(harmless(&"x".repeat(1000)).chars().count(), 201);
     }

@@ -114,10 +114,9 @@ pub fn run(
     mut save: impl FnMut(&[&Row]) -> Result<()>,
 ) -> Result<Outcome> {
     let grader = Grader::new(workspace, &options.grade)?;
-    let starter_file = workspace.student_file();
-    let starter_text =
-        std::fs::read_to_string(&starter_file).map_err(|error| Error::file(&starter_file, error))?;
-    let student_file = starter_file.strip_prefix(workspace.root()).unwrap_or(&starter_file);
+    let starter_text = workspace.starter(&options.grade.assignment)?;
+    let student_file = workspace.student_file();
+    let student_file = student_file.strip_prefix(workspace.root()).unwrap_or(&student_file);
     let shared = Shared {
         workspace,
         student_file: student_file.display().to_string(),

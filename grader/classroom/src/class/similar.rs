@@ -195,7 +195,7 @@ mod tests {
     #[test]
     fn a_renamed_and_commented_copy_is_the_same_and_another_style_is_not() {
         let workspace = Workspace::find().expect("the tests run inside the checkout");
-        let starter_text = read(&workspace.student_file());
+        let starter_text = read(&workspace.starter_file("05-nee-mis"));
         let starter = Starter::new(&starter_text);
         let solution = read(&workspace.solution_file());
         let disguised = solution

@@ -1,17 +1,18 @@
-//! Landlock: a process gives up access to files, and to the network, for good.
+//! Landlock: a process gives up access to files and to the network, irrevocably.
 
 use landlock::{
     ABI, Access, AccessFs, AccessNet, CompatLevel, Compatible, Ruleset, RulesetAttr, RulesetCreated,
     RulesetError, Scope,
 };
 
-/// The versions of its interface, the newest first. Version 7 and later ones bring nothing that is used here.
+/// ABI versions, newest first. Later versions add nothing that is used here.
 const VERSIONS: [(ABI, u32); 6] =
     [(ABI::V6, 6), (ABI::V5, 5), (ABI::V4, 4), (ABI::V3, 3), (ABI::V2, 2), (ABI::V1, 1)];
 
-/// A set of rules that grants nothing yet, for the newest version that the kernel takes, and which one that is.
+/// A ruleset that grants nothing yet, for the newest ABI version that the kernel accepts, and that version. `None` if
+/// the kernel has no Landlock.
 ///
-/// Some kernels claim a version that they do not have: versions are tried, not believed.
+/// Some kernels report a version that they do not support, so that each version is tried.
 pub fn ruleset() -> Option<(RulesetCreated, u32)> {
     VERSIONS.iter().find_map(|&(abi, number)| Some((create(abi).ok()?, number)))
 }
@@ -29,13 +30,13 @@ fn create(abi: ABI) -> Result<RulesetCreated, RulesetError> {
     ruleset.create()
 }
 
-/// Holds the calling thread, and all that it starts, to the rules. It allocates nothing.
+/// Applies the ruleset to the calling thread and to everything it starts. Allocates nothing.
 pub fn restrict(ruleset: &RulesetCreated) -> std::io::Result<()> {
     let failed = |_| std::io::Error::from(std::io::ErrorKind::PermissionDenied);
     ruleset.try_clone()?.restrict_self().map(|_| ()).map_err(failed)
 }
 
-/// Whether the calling thread can no longer read the root of all files, which anyone else can.
+/// True if the calling thread cannot read the root folder, which every unconfined process can.
 pub fn holds() -> bool {
     std::fs::File::open("/").is_err_and(|error| error.kind() == std::io::ErrorKind::PermissionDenied)
 }

@@ -1,23 +1,26 @@
-//! What keeps a submission from touching anything but its numbers.
 //!
-//! A host is locked in twice. The grader does it between fork and exec, so that whatever runs in the process is confined
-//! from its first instruction, even if something of a submission should run before `main`: Landlock grants the program, its
-//! loader and its libraries, seccomp what loading takes ([`seccomp::loading_filters`]). Then the host tightens that itself,
-//! once it has taken over its pipe: Landlock takes away all files, seccomp all system calls but those that computing
-//! needs. Both hold for all threads that are started afterwards, and nobody can lift them again.
+//! The confinement of a submission's process.
 //!
-//! What a report says about the sandbox is what the grader set and tried. A process says nothing about its own.
+//! A host is confined in two steps. The grader confines it between fork and exec, so that the process is confined from
+//! its first instruction, even if code of the submission runs before `main`: Landlock grants access to the program,
+//! its loader and its libraries, and seccomp allows the system calls of loading ([`seccomp::loading_filters`]). Then
+//! the host tightens the confinement itself, once it has taken over its pipe: Landlock removes access to all files,
+//! and seccomp allows only the system calls of computing. Both apply to all threads started later, and cannot be
+//! lifted.
 //!
-//! Elsewhere than on Linux nothing of this exists.
+//! A report describes the confinement that the grader has set up and tested. A process reports nothing about its own.
+//!
+//! Confinement exists on Linux only.
 
 #[cfg(target_os = "linux")]
 pub mod landlock;
 #[cfg(target_os = "linux")]
 pub mod seccomp;
 
-/// Tightens the confinement of the calling process as far as the system can: after it, nothing can be opened or started.
+/// Tightens the confinement of the calling process as far as the system supports it: afterwards it can neither open
+/// files nor start programs.
 ///
-/// To be called while there is one thread only: Landlock holds for the calling thread and for those it starts.
+/// Call this while the process has a single thread: Landlock applies to the calling thread and those it starts.
 #[cfg(all(target_os = "linux", feature = "serve"))]
 pub(crate) fn tighten() {
     if let Some((ruleset, _)) = landlock::ruleset() {
@@ -28,6 +31,6 @@ pub(crate) fn tighten() {
     }
 }
 
-/// There is no sandbox here.
+/// Does nothing: confinement exists on Linux only.
 #[cfg(all(not(target_os = "linux"), feature = "serve"))]
 pub(crate) fn tighten() {}

@@ -1,4 +1,4 @@
-//! seccomp: the kernel answers system calls that nobody needs with an error.
+//! seccomp: the kernel refuses all system calls but those that a host needs.
 
 use std::collections::BTreeMap;
 
@@ -7,27 +7,28 @@ use seccompiler::{
     BpfProgram, SeccompAction, SeccompCmpArgLen, SeccompCmpOp, SeccompCondition, SeccompFilter, SeccompRule,
 };
 
-/// The filters of a host, to be applied in this order: the first makes the C library fall back to a call whose
-/// arguments can be looked at, the second lets through what computing needs, and nothing else.
+/// The filters of a host, to be applied in this order: the first makes the C library fall back from `clone3` to
+/// `clone`, whose arguments can be inspected; the second allows only the system calls of computing.
 ///
-/// `None` where there are no filters for this processor.
+/// `None` if the processor architecture is not supported.
 pub fn host_filters() -> Option<[BpfProgram; 2]> {
     let computing = computing(std::process::id())?;
     Some([denying(&[libc::SYS_clone3], libc::ENOSYS)?, allowing(computing)?])
 }
 
-/// The filters that a grader puts on a process between fork and exec, in this order: they let through what
-/// [`host_filters`] do, and what it takes to load a program and to have it lock itself in.
+/// The filters that the grader applies to a process between fork and exec, in this order: they allow what
+/// [`host_filters`] allow, and the system calls of loading a program and confining it.
 ///
-/// The program is started by the very system call that it must not make itself, which no filter can tell apart: Landlock
-/// sees to it that there is nothing else to execute. [`set_own_id`] has to be called in the new process.
+/// They must allow `execve`, which starts the program; Landlock ensures that nothing else can be executed. Call
+/// [`set_own_id`] in the new process before applying them.
 ///
-/// `None` where there are no filters for this processor.
+/// `None` if the processor architecture is not supported.
 pub fn loading_filters() -> Option<[BpfProgram; 2]> {
     Some([denying(&[libc::SYS_clone3], libc::ENOSYS)?, allowing(loading()?)?])
 }
 
-/// Has filters that were made before a fork let the calling process signal itself. It allocates nothing.
+/// Replaces the placeholder in filters built before a fork, so that the calling process may signal itself. Allocates
+/// nothing.
 pub fn set_own_id(filters: &mut [BpfProgram]) {
     let own = std::process::id();
     for instruction in filters.iter_mut().flatten().filter(|instruction| instruction.k == NOT_KNOWN_YET) {
@@ -35,14 +36,14 @@ pub fn set_own_id(filters: &mut [BpfProgram]) {
     }
 }
 
-/// Stands for the id of a process that is not there yet; larger than any.
+/// Placeholder for the id of a process that does not exist yet; larger than any process id.
 const NOT_KNOWN_YET: u32 = 0x5e1f_1d00;
 
 fn allowing(rules: Rules) -> Option<BpfProgram> {
     filter(rules, SeccompAction::Errno(EPERM), SeccompAction::Allow)
 }
 
-/// A filter under which these calls fail with this error, and all others are let through.
+/// A filter that makes these calls fail with this error and allows all others.
 pub fn denying(calls: &[c_long], error: i32) -> Option<BpfProgram> {
     let rules = calls.iter().map(|&call| (call, Vec::new())).collect();
     filter(rules, SeccompAction::Allow, SeccompAction::Errno(u32::try_from(error).ok()?))
@@ -57,7 +58,7 @@ fn filter(rules: Rules, otherwise: SeccompAction, matched: SeccompAction) -> Opt
     SeccompFilter::new(rules, otherwise, matched, arch).ok()?.try_into().ok()
 }
 
-/// What allocating, threads, locks, clocks, panics and an open pipe need in the process of this id.
+/// System calls of computing in the process with this id: allocation, threads, locks, clocks, panics and an open pipe.
 fn computing(own: u32) -> Option<Rules> {
     use libc::*;
 
@@ -98,18 +99,18 @@ fn computing(own: u32) -> Option<Rules> {
     .collect();
     let thread = u64::try_from(CLONE_THREAD).ok()?;
     let execute = u64::try_from(PROT_EXEC).ok()?;
-    // Threads, but no processes.
+    // Threads, but not processes.
     rules.insert(SYS_clone, vec![one(condition(0, SeccompCmpOp::MaskedEq(thread), thread)?)?]);
-    // Memory, but none that could be executed.
+    // Memory, but not executable memory.
     for call in [SYS_mmap, SYS_mprotect] {
         rules.insert(call, vec![one(condition(2, SeccompCmpOp::MaskedEq(execute), 0)?)?]);
     }
-    // How a process aborts: by this signal to itself. It cannot end itself as a machine without memory would.
+    // A process aborts by sending itself this signal. It cannot send itself SIGKILL, as if it had run out of memory.
     rules.insert(
         SYS_tgkill,
         vec![both(equals(0, u64::from(own))?, equals(2, u64::try_from(SIGABRT).ok()?)?)?],
     );
-    // Names of threads and of regions of memory.
+    // Names of threads and memory regions.
     rules.insert(
         SYS_prctl,
         vec![
@@ -120,7 +121,8 @@ fn computing(own: u32) -> Option<Rules> {
     Some(rules)
 }
 
-/// What the kernel's loader, the dynamic linker, the C library's and Rust's start and `confine` need besides.
+/// System calls of loading: those of computing, and those of the kernel's loader, the dynamic linker, the startup code
+/// of the C library and of Rust, and `confine`.
 fn loading() -> Option<Rules> {
     use libc::*;
 
@@ -145,20 +147,20 @@ fn loading() -> Option<Rules> {
         SYS_seccomp,
     ];
     rules.extend(calls.map(|call| (call, Vec::new())));
-    // Which files may be opened, Landlock decides, but for those that are not opened to be read or written.
+    // Landlock decides which files may be opened, but does not cover O_PATH.
     let path_only = u64::try_from(O_PATH).ok()?;
     rules.insert(SYS_openat, vec![one(condition(2, SeccompCmpOp::MaskedEq(path_only), 0)?)?]);
-    // Processors with a longer history have older names for the same.
+    // x86-64 has older system calls for the same purposes.
     #[cfg(target_arch = "x86_64")]
     rules
         .extend([SYS_open, SYS_arch_prctl, SYS_poll, SYS_dup2, SYS_getrlimit].map(|call| (call, Vec::new())));
-    // The C library asks about open files by this.
+    // The C library queries open files with this call.
     let empty_path = u64::try_from(AT_EMPTY_PATH).ok()?;
     let open_file = condition(3, SeccompCmpOp::MaskedEq(empty_path), empty_path)?;
     rules.insert(SYS_newfstatat, vec![one(open_file)?]);
-    // Its own limits may be read, but not be set.
+    // A process may read its own limits, but not set them.
     rules.insert(SYS_prlimit64, vec![both(equals(0, 0)?, equals(2, 0)?)?]);
-    // Not those that have the kernel send signals.
+    // Excludes the commands that make the kernel send signals.
     let commands = [F_DUPFD_CLOEXEC, F_GETFD, F_GETFL];
     let command = |command: c_int| one(equals(1, u64::try_from(command).ok()?)?);
     rules.insert(SYS_fcntl, commands.into_iter().map(command).collect::<Option<_>>()?);
@@ -182,7 +184,7 @@ fn both(first: SeccompCondition, second: SeccompCondition) -> Option<SeccompRule
     SeccompRule::new(vec![first, second]).ok()
 }
 
-/// Whether the calling thread can no longer ask about files, which Landlock leaves to anyone.
+/// True if the calling thread cannot query file metadata, which Landlock alone does not prevent.
 pub fn holds() -> bool {
     std::fs::metadata("/").is_err()
 }

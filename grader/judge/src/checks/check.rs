@@ -1,4 +1,4 @@
-//! What a kind of check is.
+//! The interface of checks.
 
 use std::ops::RangeInclusive;
 
@@ -12,52 +12,53 @@ use verdict::rubric::{CheckSpec, EmissionOnHit};
 
 use super::{GradeContext, SceneWithReference};
 
-/// A kind of check: where it means something, how it is run, what it tells about causes.
+/// A kind of check: where it applies, how it is run, and what its measurements tell about causes.
 pub trait Check: Sync {
-    /// The kind that rubrics name.
+    /// The kind, as named in rubrics.
     fn kind(&self) -> CheckKind;
 
-    /// Techniques that it can be about.
+    /// Techniques that the check supports.
     fn techniques(&self) -> &'static [Technique] {
         &Technique::ALL
     }
 
-    /// Numbers of bounces that it can be asked for.
+    /// Values of `max_bounces` that the check supports.
     fn bounces(&self) -> RangeInclusive<u32> {
         0..=u32::MAX
     }
 
-    /// True if it can be asked about next event estimation alone, with lights that emit nothing when they are hit.
+    /// True if the check supports `emission_on_hit: off`, which isolates next event estimation.
     fn isolates_next_event_estimation(&self) -> bool {
         false
     }
 
-    /// The number of bounces that says most in a scene whose pictures have `all`.
-    fn telling_bounces(&self, all: u32) -> u32 {
-        all.clamp(*self.bounces().start(), *self.bounces().end())
+    /// The value of `max_bounces` at which the check is most sensitive, in a scene whose default is
+    /// `scene_default`.
+    fn recommended_bounces(&self, scene_default: u32) -> u32 {
+        scene_default.clamp(*self.bounces().start(), *self.bounces().end())
     }
 
-    /// Whether it means anything in a scene, with lights that its technique can find.
+    /// Checks whether it applies to a scene that has lights which its technique can find.
     ///
     /// # Errors
-    /// Why it does not.
+    /// Why it does not apply.
     fn applies(&self, _scene: &SceneWithReference, _spec: &CheckSpec) -> Result<(), WhyNot> {
         Ok(())
     }
 
-    /// Runs it on a submission.
+    /// Runs the check on the submission of the context.
     ///
     /// # Errors
-    /// If the submission gives no answer, or something else is wrong.
-    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<Outcome, JobError>;
+    /// If the submission gives no valid answer, or the grader itself fails.
+    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<CheckOutcome, JobError>;
 
-    /// What its measurements say about causes, as numbers that can be compared.
+    /// The measurements as numbers that the diagnosis compares with those of known mistakes.
     fn observations(&self, evidence: &Evidence) -> Vec<Observation>;
 
-    /// Whether it can be asked for at all, in some scene.
+    /// Checks whether a specification is valid, in whatever scene.
     ///
     /// # Errors
-    /// Why it cannot.
+    /// Why it is not valid.
     fn accepts(&self, spec: &CheckSpec) -> Result<(), WhyNot> {
         if !self.techniques().contains(&spec.technique) {
             return Err(WhyNot::Technique);
@@ -75,29 +76,29 @@ pub trait Check: Sync {
     }
 }
 
-/// What a check has come to.
+/// The outcome of running a check.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
-    /// How it ended.
+pub struct CheckOutcome {
+    /// The verdict.
     pub verdict: Verdict,
-    /// Why, as a code.
+    /// Code of the reason.
     pub reason: Reason,
-    /// What was measured.
+    /// The measurements.
     pub evidence: Evidence,
     /// Samples that are not radiance.
     pub numerics: Numerics,
-    /// Paths traced.
+    /// Number of paths traced.
     pub samples: u64,
 }
 
-impl Outcome {
-    /// A pass if there is no reason for anything else, or else a fail.
+impl CheckOutcome {
+    /// A pass for [`Reason::None`], a fail for any other reason.
     pub fn new(reason: Reason, evidence: Evidence, samples: u64) -> Self {
         let verdict = if reason == Reason::None { Verdict::Pass } else { Verdict::Fail };
         Self { verdict, reason, evidence, numerics: Numerics::default(), samples }
     }
 
-    /// The same with samples that are not radiance: a submission that returns any has failed.
+    /// The same with samples that are not radiance. If there are any, the check fails for [`Reason::Numerics`].
     #[must_use]
     pub fn with(mut self, numerics: Numerics) -> Self {
         if !numerics.is_clean() {
@@ -107,64 +108,64 @@ impl Outcome {
     }
 }
 
-/// A measured number that tells causes apart, with its standard error.
+/// A measured number that helps to distinguish causes, with its standard error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
-    /// What was measured.
+    /// The measured quantity.
     pub quantity: Quantity,
-    /// Its value.
+    /// Value.
     pub value: f64,
-    /// Its standard error.
+    /// Standard error.
     pub error: f64,
 }
 
-/// What an [`Observation`] measures.
+/// The quantity of an [`Observation`].
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Quantity {
-    /// ln of the mean of a picture, relative to what it should be.
+    /// ln of the mean of a picture relative to the exact mean.
     Mean,
-    /// ln of the energy of light after so many bounces, relative to what it should be.
+    /// ln of the energy of light after this many bounces relative to the exact energy.
     BounceEnergy(u32),
-    /// ln of the variance, relative to a technique of the solution.
+    /// ln of the variance relative to a technique of the solution.
     Noise(Technique),
-    /// ln of the contribution of one of three lights, relative to what it should be.
+    /// ln of the contribution of one of three lights relative to the exact contribution.
     LightShare(u32),
-    /// Exponent of a factor in the odds of a weight: of light samples, or against BSDF samples.
+    /// Exponent of a factor in the odds of w_L, or of 1 − w_B.
     WeightExponent {
-        /// True for light samples.
+        /// True for w_L, false for 1 − w_B.
         of_light: bool,
-        /// Number of the factor, as in [`WeightForm::Powers`](verdict::check::WeightForm::Powers).
+        /// Index of the factor, as in [`WeightForm::Powers`](verdict::check::WeightForm::Powers).
         factor: u32,
     },
-    /// A weight that is always the same: of light samples, or against BSDF samples.
+    /// Value of a constant weight w_L, or of 1 − w_B.
     WeightConstant {
-        /// True for light samples.
+        /// True for w_L, false for 1 − w_B.
         of_light: bool,
     },
-    /// log₁₀ of the largest |w_L + w_B − 1|.
+    /// log₁₀ of the maximum of |w_L + w_B − 1|.
     WeightDeviation {
         /// True at the first vertex of a path, false at later ones.
         first_vertex: bool,
     },
     /// Weight of light that only one technique can find.
     OnlyWayWeight(OnlyWay),
-    /// 1 where something is wrong in one of the scenes that a check looks at.
+    /// 1 if one of several scenes or runs of a check fails.
     WrongAt(WrongPlace),
 }
 
 impl Quantity {
-    /// True for logarithms of ratios that are 1 if all is right.
+    /// True if a correct submission has the value 0.
     pub fn is_zero_if_right(&self) -> bool {
         matches!(self, Self::Mean | Self::BounceEnergy(_))
     }
 
-    /// True if it says nothing that it was not measured: it may have been too noisy.
+    /// True if a missing value carries no information: it may have been too noisy to measure.
     pub fn may_be_missing(&self) -> bool {
         matches!(self, Self::Mean | Self::BounceEnergy(_) | Self::Noise(_) | Self::LightShare(_))
     }
 
-    /// How much a value may differ between two programs with the same mistake, as one standard deviation.
+    /// Standard deviation of the value between programs with the same mistake.
     pub fn scale(&self, value: f64) -> f64 {
         match self {
             Self::Noise(_) => 0.3,
@@ -172,33 +173,33 @@ impl Quantity {
             Self::WeightDeviation { .. } => 0.5,
             Self::WeightConstant { .. } => 0.02,
             Self::LightShare(_) => 0.002 + 0.1 * value.abs(),
-            // Light that is 2 % off, and a tenth of the mistake itself. The more often light has bounced, the less of it
-            // there is to measure from.
+            // 2 % plus a tenth of the error itself. Energies of later bounces are less accurate, since less light is
+            // left.
             Self::BounceEnergy(bounces) => 0.02 + 0.02 * f64::from(bounces.pow(2)) + 0.1 * value.abs(),
             Self::Mean | Self::WrongAt(_) => 0.02 + 0.1 * value.abs(),
         }
     }
 }
 
-/// One of several scenes or runs that a check looks at.
+/// One of the scenes or runs of a check with several.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum WrongPlace {
-    /// A changed scene.
+    /// A transformed scene.
     Change(SceneChange),
-    /// The room 2^n times as large.
+    /// The room scaled by 2^n.
     Scaled(i32),
-    /// The room with lights 2^n times as bright; 0 for the room as it is.
+    /// The room with all emission scaled by 2^n; 0 for the unchanged room.
     Brightened(i32),
     /// A scene of `scenes/extreme/`.
     ExtremeScene(String),
     /// Scripted densities.
     Densities,
-    /// Different seeds that give the same image.
+    /// Different seeds give the same image.
     SameImage,
-    /// The same seed, rendered again.
+    /// Rendering the same seed again gives another image.
     NotRepeatable,
-    /// Pixels of one image.
+    /// Pixels of one image share random numbers.
     SharedByPixels,
 }
 
@@ -214,30 +215,30 @@ impl From<&Place> for WrongPlace {
     }
 }
 
-/// Darkest that a mean counts as, relative to what it should be: black has no logarithm.
+/// Lower limit of ratios before the logarithm is taken.
 const DARKEST: f64 = 0.02;
 
-/// 99 % intervals reach about this many standard errors to either side.
+/// Half the width of a 99 % interval, in standard errors.
 const MARGIN_IN_ERRORS: f64 = 2.6;
 
 impl Observation {
-    /// A number without an error.
+    /// An observation without a standard error.
     pub fn exact(quantity: Quantity, value: f64) -> Self {
         Self { quantity, value, error: 0.0 }
     }
 
-    /// ln of a ratio, limited where it is nearly black; `margin` is half a 99 % interval.
+    /// An observation of ln of a ratio, clamped to a finite range; `margin` is half the width of its 99 % interval.
     pub fn ratio(quantity: Quantity, ratio: f64, margin: f64) -> Self {
         let limited = ratio.clamp(DARKEST, 1e4);
         Self { quantity, value: limited.ln(), error: margin / MARGIN_IN_ERRORS / limited }
     }
 
-    /// That something is wrong at a place.
+    /// The observation that the check fails at a place.
     pub fn wrong_at(place: WrongPlace) -> Self {
         Self::exact(Quantity::WrongAt(place), 1.0)
     }
 
-    /// The mean of the whole picture, where it is known.
+    /// The observation of the whole picture's mean; empty if the test has none.
     pub fn of_mean(test: &MeanTest) -> Vec<Self> {
         let ratio =
             |whole: verdict::check::Effect| Self::ratio(Quantity::Mean, 1.0 + whole.relative, whole.margin);

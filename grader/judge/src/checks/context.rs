@@ -1,4 +1,4 @@
-//! What all checks of a grade share.
+//! The context that all checks of a grade share.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -16,39 +16,39 @@ use verdict::rubric::{CheckSpec, EmissionOnHit, Task};
 
 use harness::job::JobError;
 
-use super::{Outcome, of_kind};
+use super::{CheckOutcome, of_kind};
 use crate::reference::{Oracle, Reference, SIZE};
 
-/// Looks at a check on which nothing depends any more: a large error shows in the first, and most of what is right passes
-/// in the second.
+/// Number of looks of a check that cannot affect the points any more: a large error shows at the first look, and most
+/// correct submissions pass at the second.
 const SHORT_LOOKS: usize = 2;
 
-/// A scene with everything that checks need to know of it.
+/// A scene with its reference.
 pub struct SceneWithReference {
-    /// Its content.
+    /// Content of the scene.
     pub description: SceneDescription,
-    /// The same, ready for rays; for its features.
+    /// The scene built for ray tracing.
     pub scene: Scene,
-    /// Its picture.
+    /// Reference of the scene.
     pub reference: Reference,
 }
 
-/// What all checks of a grade share.
+/// The context that all checks of a grade share.
 #[derive(Clone)]
 pub struct GradeContext<'a> {
-    /// The submission.
+    /// Program of the submission.
     pub program: &'a SubmissionProgram,
-    /// The solution; none where the checkout does not have it.
+    /// The solution; `None` if the checkout does not have it.
     pub oracle: Option<&'a Oracle>,
-    /// The scenes by name.
+    /// The scenes, by name.
     pub scenes: &'a BTreeMap<String, SceneWithReference>,
     /// Seed of the grade.
     pub seed: u64,
-    /// Share of the screening level that one check may spend.
+    /// Screening level of one check.
     pub screening_level: f64,
-    /// Maximum number of looks at one picture.
+    /// Maximum number of looks per picture.
     pub looks: usize,
-    /// Threads of the submission.
+    /// Number of threads of the submission.
     pub threads: usize,
     /// The checkout.
     pub workspace: &'a Workspace,
@@ -58,12 +58,12 @@ impl GradeContext<'_> {
     /// Runs one check.
     ///
     /// # Errors
-    /// What is not the submission's doing. All else is in the result.
+    /// If the grader itself fails. Faults of the submission are part of the result.
     pub fn run(&self, task: &Task, spec: &CheckSpec) -> Result<CheckResult> {
         let start = Instant::now();
         let begun = begin(task, spec, Verdict::Fail, Reason::None);
         let mut result = match of_kind(spec.check).run(self, spec) {
-            Ok(Outcome { verdict, reason, evidence, numerics, samples }) => {
+            Ok(CheckOutcome { verdict, reason, evidence, numerics, samples }) => {
                 CheckResult { verdict, reason, evidence: Some(evidence), numerics, samples, ..begun }
             }
             Err(JobError::Submission(fault)) => {
@@ -75,13 +75,13 @@ impl GradeContext<'_> {
         Ok(result)
     }
 
-    /// The same for checks on which nothing depends any more: only as many looks as a pass takes at least.
+    /// The same context for checks that cannot affect the points any more: with the minimum number of looks for a pass.
     #[must_use]
     pub fn with_short_looks(&self) -> Self {
         Self { looks: SHORT_LOOKS, ..self.clone() }
     }
 
-    /// The submission, started anew. For a whole check it has no more time than for a job.
+    /// Starts a process of the submission. Its time limit for the whole check is that of one job.
     pub(super) fn start(&self) -> Result<HostProcess> {
         Ok(HostProcess::start(self.program, self.threads)?.within(self.program.limits.job_time))
     }
@@ -91,7 +91,7 @@ impl GradeContext<'_> {
         &self.scenes[&spec.scene]
     }
 
-    /// Seed of a check: fixed by the grade's seed and the check's identity, whatever else is run.
+    /// Seed of a check: a hash of the grade's seed and the check's identity, independent of other checks.
     pub(super) fn seed_of(&self, spec: &CheckSpec) -> u64 {
         let mut hasher = blake3::Hasher::new();
         hasher.update(&self.seed.to_le_bytes());
@@ -102,18 +102,18 @@ impl GradeContext<'_> {
     }
 }
 
-/// The result of a check that is skipped, since the points are lost to another.
-pub fn skip(task: &Task, spec: &CheckSpec, lost_to: &verdict::check::CheckId) -> CheckResult {
+/// The result of a check that is skipped because the required check `lost_to` has already cost the points.
+pub fn skipped(task: &Task, spec: &CheckSpec, lost_to: &verdict::check::CheckId) -> CheckResult {
     let why = SkipReason::PointsLostTo(Some(lost_to.clone()));
     begin(task, spec, Verdict::Skipped { why }, Reason::None)
 }
 
-/// The result of a check that is not run, since the submission used up its time in others.
-pub fn give_up(task: &Task, spec: &CheckSpec) -> CheckResult {
+/// The result of a check that is not run because earlier checks exceeded their time limits.
+pub fn out_of_time(task: &Task, spec: &CheckSpec) -> CheckResult {
     begin(task, spec, Verdict::NotRun { why: NotRun::OutOfTime }, Reason::Timeout)
 }
 
-/// The result of a check before anything is known.
+/// A result without measurements.
 fn begin(task: &Task, spec: &CheckSpec, verdict: Verdict, reason: Reason) -> CheckResult {
     CheckResult {
         id: spec.id(),
@@ -139,17 +139,17 @@ fn reason_of(fault: &Fault) -> Reason {
     }
 }
 
-/// What a check makes the path tracer with.
+/// Settings of the path tracer for a check.
 pub(super) fn settings_of(spec: &CheckSpec) -> Settings {
     Settings { technique: spec.technique, max_bounces: spec.max_bounces }
 }
 
-/// The ways of finding light that a check leaves open.
+/// Switches of the scene for a check.
 pub(super) fn switches_of(spec: &CheckSpec) -> Switches {
     Switches { emission_on_hit: spec.emission_on_hit == EmissionOnHit::On }
 }
 
-/// The path of a check's picture, but for its seed, pixel and sample.
+/// Replay target of a check's picture, without seed, pixel and sample.
 pub(super) fn replay_of(spec: &CheckSpec) -> ReplayTarget {
     ReplayTarget {
         scene: spec.scene.clone(),
@@ -165,7 +165,7 @@ pub(super) fn replay_of(spec: &CheckSpec) -> ReplayTarget {
     }
 }
 
-/// A sample as a report has it, with the path that shows it where that can be named.
+/// A sample in the form of the report, with a replay target if `path` names the scene.
 pub(super) fn anomaly(sample: &AnomalousSample, path: Option<ReplayTarget>) -> Anomaly {
     let AnomalousSample { seed, x, y, sample, value } = *sample;
     let replay = path.map(|path| ReplayTarget { seed, pixel: [x, y], sample, ..path });

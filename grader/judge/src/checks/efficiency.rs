@@ -1,8 +1,8 @@
-//! **efficiency**: is it really next event estimation, really multiple importance sampling?
+//! **efficiency**: does the submission use next event estimation, and multiple importance sampling?
 //!
-//! Means cannot tell: BSDF sampling is right wherever light has an area. Noise can. In scenes where a technique is at
-//! least 20 times less noisy than those that it is made of, its variance is compared with what the reference
-//! says of each of them, at equal numbers of samples.
+//! Means do not show it, since BSDF sampling is unbiased wherever lights have an area; variance does. In scenes where
+//! a technique has at most 1/20 of the variance of the techniques it is made of, the submission's variance is compared
+//! with that of each of them in the reference, at equal sample counts.
 
 use arty::integrator::Technique;
 use arty::sampler::batch_seed;
@@ -12,27 +12,27 @@ use verdict::error::Error;
 use verdict::rubric::{CheckSpec, rivals};
 
 use super::context::settings_of;
-use super::{Check, GradeContext, JobError, Observation, Outcome, Quantity, SceneWithReference};
+use super::{Check, CheckOutcome, GradeContext, JobError, Observation, Quantity, SceneWithReference};
 use crate::reference::SIZE;
 use crate::statistics::batches::Batches;
 use crate::statistics::bias::Expected;
 use crate::statistics::variance::VarianceRatio;
 
-/// How much noisier the other technique has to be for a scene to tell.
-const TELLING: f64 = 20.0;
+/// Minimum variance of the other technique, relative to the tested one, for a scene to distinguish them.
+const MIN_RIVAL_RATIO: f64 = 20.0;
 
-/// How much noisier than the solution a submission has to be, at least, to lack a technique.
-const LACKING: f64 = 3.0;
+/// Minimum variance, relative to the solution, of a submission that lacks a technique.
+const MISSING_TECHNIQUE_RATIO: f64 = 3.0;
 
-/// The level at which it has to be that.
+/// Significance level of that comparison.
 const LEVEL: f64 = 1e-5;
 
-/// Independent renderings, and samples of each pixel in each.
+/// Number of batches, and samples per pixel of each batch.
 const BATCHES: u64 = 64;
 const SAMPLES: u64 = 8;
 
-/// How much noisier than the solution a correct submission has to be to be told so.
-const NOISIER: f64 = 1.5;
+/// Minimum variance, relative to the solution, that is reported for a correct submission.
+const NOISIER_RATIO: f64 = 1.5;
 
 pub(super) struct Efficiency;
 
@@ -45,8 +45,8 @@ impl Check for Efficiency {
         &[Technique::Nee, Technique::Mis]
     }
 
-    fn telling_bounces(&self, _: u32) -> u32 {
-        // Differences in noise are largest in direct light.
+    fn recommended_bounces(&self, _: u32) -> u32 {
+        // The variances differ most in direct light.
         1
     }
 
@@ -58,10 +58,10 @@ impl Check for Efficiency {
         if features.lit_surfaces == 0 {
             return Err(WhyNot::NothingLit);
         }
-        tells_apart(scene, spec)
+        distinguishes(scene, spec)
     }
 
-    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<Outcome, JobError> {
+    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<CheckOutcome, JobError> {
         let scene = context.scene(spec);
         let moments = |technique| moments(scene, spec, technique);
         let own = moments(spec.technique)?;
@@ -77,7 +77,7 @@ impl Check for Efficiency {
         let ratio_to = |expected: &Expected| VarianceRatio::new(&batches, &own.mean, &expected.deviation);
         let mut noise = Noise { ratios: Vec::new(), as_noisy_as: None, is_noisier: false };
         let Some(ratio) = ratio_to(&own) else {
-            return Ok(Outcome::new(Reason::Efficiency, Evidence::Efficiency(noise), samples));
+            return Ok(CheckOutcome::new(Reason::Efficiency, Evidence::Efficiency(noise), samples));
         };
         noise.ratios.push(VarianceOf { technique: spec.technique, ratio: ratio.ratio() });
         let mut nearest = (spec.technique, ratio.log.abs());
@@ -85,18 +85,21 @@ impl Check for Efficiency {
             let rival = moments(technique)?;
             let Some(to_rival) = ratio_to(&rival) else { continue };
             noise.ratios.push(VarianceOf { technique, ratio: to_rival.ratio() });
-            // A technique that is hardly noisier here does not tell.
-            if total(&rival) / total(&own) >= TELLING && to_rival.log.abs() < nearest.1 {
+            // Another technique with a similar variance cannot be distinguished here.
+            if relative_variance(&rival) / relative_variance(&own) >= MIN_RIVAL_RATIO
+                && to_rival.log.abs() < nearest.1
+            {
                 nearest = (technique, to_rival.log.abs());
             }
         }
-        // Noisier than the solution, and just as noisy as what it is made of: anything else is a style of its own.
-        let is_lacking =
-            ratio.at_least(LEVEL) > LACKING && nearest.0 != spec.technique && nearest.1 < LACKING.ln();
-        noise.as_noisy_as = is_lacking.then_some(nearest.0);
-        noise.is_noisier = ratio.at_least(LEVEL) > NOISIER;
-        let reason = if is_lacking { Reason::Efficiency } else { Reason::None };
-        Ok(Outcome::new(reason, Evidence::Efficiency(noise), samples))
+        // Noisier than the solution and as noisy as another technique. Any other variance is a matter of style.
+        let is_missing = ratio.at_least(LEVEL) > MISSING_TECHNIQUE_RATIO
+            && nearest.0 != spec.technique
+            && nearest.1 < MISSING_TECHNIQUE_RATIO.ln();
+        noise.as_noisy_as = is_missing.then_some(nearest.0);
+        noise.is_noisier = ratio.at_least(LEVEL) > NOISIER_RATIO;
+        let reason = if is_missing { Reason::Efficiency } else { Reason::None };
+        Ok(CheckOutcome::new(reason, Evidence::Efficiency(noise), samples))
     }
 
     fn observations(&self, evidence: &Evidence) -> Vec<Observation> {
@@ -108,19 +111,23 @@ impl Check for Efficiency {
     }
 }
 
-/// Whether a technique can be told from at least one other by its noise there.
-fn tells_apart(scene: &SceneWithReference, spec: &CheckSpec) -> Result<(), WhyNot> {
+/// Checks that the scene distinguishes the technique from at least one other by its variance.
+fn distinguishes(scene: &SceneWithReference, spec: &CheckSpec) -> Result<(), WhyNot> {
     let moments = |technique| moments(scene, spec, technique).map_err(|_| WhyNot::UnknownNoise);
     let own = moments(spec.technique)?;
     let mut max = 0.0f64;
     for &technique in rivals(spec.technique) {
-        max = max.max(total(&moments(technique)?) / total(&own));
+        max = max.max(relative_variance(&moments(technique)?) / relative_variance(&own));
     }
-    if max < TELLING { Err(WhyNot::AlikeNoise { at_most: max, needed: TELLING }) } else { Ok(()) }
+    if max < MIN_RIVAL_RATIO {
+        Err(WhyNot::AlikeNoise { at_most: max, needed: MIN_RIVAL_RATIO })
+    } else {
+        Ok(())
+    }
 }
 
-/// The variance of one sample over the whole image, relative to m² + m̄².
-fn total(expected: &Expected) -> f64 {
+/// Variance of one sample, summed over the image relative to m² + m̄² (mean of the pixel and mean of the image).
+fn relative_variance(expected: &Expected) -> f64 {
     let count = 3.0 * expected.mean.len().max(1) as f64;
     let image_mean = expected.mean.iter().flatten().sum::<f64>() / count;
     let pairs = expected.deviation.iter().flatten().zip(expected.mean.iter().flatten());

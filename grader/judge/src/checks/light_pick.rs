@@ -1,9 +1,10 @@
-//! **light-pick**: is each light picked as often as the division by its probability says?
+//! **light-pick**: does the selection probability that the estimator divides by match the frequency of selection?
 //!
-//! A red, a green and a blue point light over a diffuse floor: each channel shows one light, and its mean is ρ/π · I cos θ
-//! / d², however lights are picked, if that probability is the one that is divided by. A pick like `random * (n − 0.01)`
-//! is off by less than a percent, which would take millions of paths to see. So the submission's own random numbers are
-//! stratified: then each light's share is exact, and a few thousand paths tell.
+//! A red, a green and a blue point light illuminate a diffuse floor, so that each channel shows one light. Its mean is
+//! ρ/π · I cos θ / d² for any selection strategy whose probability matches the one in the estimator. An off-by-one
+//! such as `random * (n − 0.01)` is an error of less than a percent, which would take millions of paths to detect.
+//! Therefore the random numbers of the submission are stratified: the share of each light is exact, and a few thousand
+//! paths suffice.
 
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
@@ -18,17 +19,17 @@ use verdict::check::{CheckKind, Evidence, LightShares, Reason, WhyNot};
 use verdict::rubric::CheckSpec;
 
 use super::context::settings_of;
-use super::{Check, GradeContext, JobError, Observation, Outcome, Quantity, SceneWithReference};
+use super::{Check, CheckOutcome, GradeContext, JobError, Observation, Quantity, SceneWithReference};
 use crate::scenes;
 
-/// Paths in each stratified set, and such sets.
+/// Number of paths per stratified set, and number of sets.
 const PATHS: u64 = 4096;
 const SETS: u64 = 8;
 
-/// Relative differences up to this are rounding and the width of a stratum.
+/// Relative error explained by rounding and the width of a stratum.
 const TOLERATED: f64 = 1e-3;
 
-/// Beyond that, the level at which a channel's mean has to be wrong.
+/// Significance level of an error beyond [`TOLERATED`].
 const LEVEL: f64 = 1e-6;
 
 const ALBEDO: f32 = 0.6;
@@ -60,7 +61,7 @@ impl Check for LightPick {
         }
     }
 
-    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<Outcome, JobError> {
+    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<CheckOutcome, JobError> {
         let mut process = context.start()?;
         let settings = settings_of(spec);
         let scene = scene();
@@ -83,7 +84,7 @@ impl Check for LightPick {
             wrong: wrong.map(|light| light as u32),
         };
         let reason = if wrong.is_some() { Reason::Bias } else { Reason::None };
-        Ok(Outcome::new(reason, Evidence::LightPick(evidence), SETS * PATHS))
+        Ok(CheckOutcome::new(reason, Evidence::LightPick(evidence), SETS * PATHS))
     }
 
     fn observations(&self, evidence: &Evidence) -> Vec<Observation> {
@@ -95,12 +96,12 @@ impl Check for LightPick {
     }
 }
 
-/// How much one light counts.
+/// Contribution of one light.
 struct Share {
-    /// Relative to what it should, less 1.
+    /// Relative error of the contribution.
     ratio: f64,
-    /// How likely a correct pick looks like this. Numbers that are used in a way that strata do not even out vary from
-    /// set to set, and then more is allowed.
+    /// p-value under correct selection. If the submission uses its random numbers in a way that stratification does not
+    /// cover, the contribution varies from set to set, and larger errors are allowed.
     p_value: f64,
 }
 
@@ -123,7 +124,7 @@ impl Share {
     }
 }
 
-/// The floor's point that the path hits.
+/// The point on the floor that the paths hit.
 const SEEN: Vec3 = Vec3::new(0.1, 0.0, -0.2);
 
 fn light(index: usize) -> Vec3 {
@@ -165,7 +166,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_exact_share_that_is_off_is_wrong_and_a_noisy_one_is_not() {
+    fn a_small_error_is_significant_if_exact_and_not_if_noisy() {
         let share = |ratios: &[f64]| {
             let means: Vec<[f64; 3]> = ratios.iter().map(|ratio| [expected(0) * ratio; 3]).collect();
             Share::of(&means, 0)

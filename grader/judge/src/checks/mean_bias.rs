@@ -1,11 +1,11 @@
-//! **mean-bias**: are the means those of the reference image?
+//! **mean-bias**: does the submission converge to the reference image?
 
 use verdict::check::{CheckKind, Evidence, WhyNot};
 use verdict::error::Error;
 use verdict::rubric::{CheckSpec, EmissionOnHit};
 
 use super::means::{self, Picture};
-use super::{Check, GradeContext, JobError, Observation, Outcome, SceneWithReference};
+use super::{Check, CheckOutcome, GradeContext, JobError, Observation, SceneWithReference};
 use crate::reference::Reference;
 use crate::statistics::bias::Expected;
 
@@ -29,7 +29,7 @@ impl Check for MeanBias {
         }
     }
 
-    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<Outcome, JobError> {
+    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<CheckOutcome, JobError> {
         let scene = context.scene(spec);
         let expected = expected(spec, &scene.reference)?;
         let scenes = [&scene.description];
@@ -41,10 +41,10 @@ impl Check for MeanBias {
     }
 }
 
-/// What the reference says of a check's picture.
+/// Expected mean and noise of a check's picture, from the reference of its scene.
 ///
 /// # Errors
-/// If it does not have that picture.
+/// If the reference lacks that view or technique.
 pub fn expected(spec: &CheckSpec, reference: &Reference) -> Result<Expected, Error> {
     let view = reference.views.get(&spec.view());
     view.and_then(|view| view.expected(spec.technique)).ok_or_else(|| {

@@ -1,4 +1,4 @@
-//! Judging the means of what a submission renders: asks for samples, and turns the judgement into evidence.
+//! Testing the means of a submission's pictures: requests samples, and turns the judgement into evidence.
 
 use arty::integrator::Settings;
 use arty::scene::SceneDescription;
@@ -9,34 +9,34 @@ use verdict::replay::ReplayTarget;
 use verdict::rubric::CheckSpec;
 
 use super::context::{anomaly, replay_of, settings_of, switches_of};
-use super::{GradeContext, JobError, Outcome};
+use super::{CheckOutcome, GradeContext, JobError};
 use crate::reference::SIZE;
 use crate::statistics::bias::Expected;
 use crate::statistics::regions::{pyramid, weighted_image};
-use crate::statistics::sequential::{Decision, Demand, Judgement, Question, judge};
+use crate::statistics::sequential::{Decision, Judgement, SampleRequest, SequentialTest, judge};
 
-/// A picture whose mean is judged.
+/// A picture whose mean is tested.
 pub(super) struct Picture<'a> {
-    /// What is rendered. Of several scenes the sum.
+    /// Scenes to render. The picture is the sum of their renderings.
     pub(super) scenes: &'a [&'a SceneDescription],
-    /// What it should be.
+    /// Expected mean and noise.
     pub(super) expected: &'a Expected,
-    /// What the submission's path tracer is made with.
+    /// Settings of the submission's path tracer.
     pub(super) settings: Settings,
-    /// Which ways of finding light are closed.
+    /// Switches of the scenes.
     pub(super) switches: Switches,
-    /// The relative error of the whole image's mean that a pass excludes.
+    /// Relative error of the whole image's mean that a pass excludes.
     pub(super) tolerance: f64,
-    /// The share of the screening level that this picture may spend.
+    /// Screening level of this picture.
     pub(super) screening_level: f64,
-    /// How many looks are taken at most.
+    /// Maximum number of looks.
     pub(super) looks: usize,
-    /// The seed of all samples.
+    /// Seed of all samples.
     pub(super) seed: u64,
 }
 
 impl<'a> Picture<'a> {
-    /// What a check asks for in one scene.
+    /// The picture of a check with its settings.
     pub(super) fn of(
         context: &GradeContext<'_>,
         spec: &CheckSpec,
@@ -55,7 +55,7 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// Judges what the submission makes of it.
+    /// Tests the mean in a new process of the submission.
     pub(super) fn judge(
         &self,
         context: &GradeContext<'_>,
@@ -67,7 +67,7 @@ impl<'a> Picture<'a> {
         self.judge_in(&mut process, &scenes, anomalies)
     }
 
-    /// The same by a process that has the scenes already.
+    /// Tests the mean in a process that has already loaded the scenes.
     pub(super) fn judge_in(
         &self,
         process: &mut HostProcess,
@@ -76,7 +76,7 @@ impl<'a> Picture<'a> {
     ) -> Result<Judgement, JobError> {
         let mut regions = pyramid(SIZE.0, SIZE.1);
         regions.push(weighted_image(self.expected));
-        let question = Question {
+        let test = SequentialTest {
             expected: self.expected,
             regions: &regions,
             decisive: regions.len() - 1,
@@ -85,10 +85,10 @@ impl<'a> Picture<'a> {
             seed: self.seed,
             looks: self.looks,
         };
-        judge(&question, |demand| {
+        judge(&test, |request| {
             let mut sum: Vec<Vec<[f32; 3]>> = Vec::new();
             for (part, &scene) in scenes.iter().enumerate() {
-                let batches = self.render(process, scene, part as u64, demand, anomalies)?;
+                let batches = self.render(process, scene, part as u64, request, anomalies)?;
                 if sum.is_empty() {
                     sum = batches;
                 } else {
@@ -105,19 +105,19 @@ impl<'a> Picture<'a> {
         process: &mut HostProcess,
         scene: u32,
         part: u64,
-        demand: &Demand,
+        request: &SampleRequest,
         anomalies: &mut Anomalies,
     ) -> Result<Vec<Vec<[f32; 3]>>, JobError> {
-        // Parts of a sum must not share their random numbers.
-        let seeds: Vec<u64> = demand.seeds.iter().map(|seed| seed ^ part.rotate_right(8)).collect();
-        let per_batch = demand.samples * u64::from(SIZE.0 * SIZE.1);
+        // The parts of a sum must have independent random numbers.
+        let seeds: Vec<u64> = request.seeds.iter().map(|seed| seed ^ part.rotate_right(8)).collect();
+        let per_batch = request.samples * u64::from(SIZE.0 * SIZE.1);
         let per_job = usize::try_from(SAMPLES_PER_JOB / per_batch.max(1)).unwrap_or(usize::MAX).max(1);
         let mut batches = Vec::with_capacity(seeds.len());
         for seeds in seeds.chunks(per_job) {
             let job = RenderJob {
-                first_sample: demand.first_sample,
+                first_sample: request.first_sample,
                 switches: self.switches,
-                ..RenderJob::new(scene, self.settings, [SIZE.0, SIZE.1], seeds.to_vec(), demand.samples)
+                ..RenderJob::new(scene, self.settings, [SIZE.0, SIZE.1], seeds.to_vec(), request.samples)
             };
             let rendered = process.render(&job)?;
             anomalies.non_finite += rendered.non_finite;
@@ -129,22 +129,23 @@ impl<'a> Picture<'a> {
     }
 }
 
-/// Samples that one job asks for at most, so that a job's time limit is never a matter of how many were wanted.
+/// Maximum number of samples per job, so that the time limit of a job does not depend on the number of samples
+/// requested.
 const SAMPLES_PER_JOB: u64 = 1 << 20;
 
-/// Samples that are not radiance, as they come in.
+/// Samples that are not radiance, accumulated over jobs.
 #[derive(Default)]
 pub(super) struct Anomalies {
-    /// NaN or infinite.
+    /// Number of samples that are NaN or infinite.
     non_finite: u64,
-    /// Finite, but negative.
+    /// Number of samples that are finite but negative.
     negative: u64,
-    /// The first of each job.
+    /// The first such samples of each job.
     first: Vec<AnomalousSample>,
 }
 
 impl Anomalies {
-    /// The same as a report has them; `path` names the picture, where that can be rendered again.
+    /// The same in the form of the report. `path` is the replay target of the picture, if its scene has a name.
     pub(super) fn numerics(&self, path: Option<ReplayTarget>) -> Numerics {
         Numerics {
             non_finite: self.non_finite,
@@ -154,34 +155,35 @@ impl Anomalies {
     }
 }
 
-/// Judges one picture of a check's scene.
+/// Runs a check that tests the mean of one picture.
 pub(super) fn run(
     context: &GradeContext<'_>,
     spec: &CheckSpec,
     picture: &Picture<'_>,
     evidence: impl FnOnce(MeanTest) -> Evidence,
-) -> Result<Outcome, JobError> {
+) -> Result<CheckOutcome, JobError> {
     let mut anomalies = Anomalies::default();
     let judgement = picture.judge(context, &mut anomalies)?;
     let outcome = conclude(&judgement, evidence(mean_test(&judgement, picture.tolerance)), judgement.samples);
     Ok(outcome.with(anomalies.numerics(Some(replay_of(spec)))))
 }
 
-/// The outcome that a judgement comes to.
-pub(super) fn conclude(judgement: &Judgement, evidence: Evidence, samples: u64) -> Outcome {
+/// The outcome of a check that one judgement decides.
+pub(super) fn conclude(judgement: &Judgement, evidence: Evidence, samples: u64) -> CheckOutcome {
     match judgement.decision {
-        Decision::Biased => Outcome::new(Reason::Bias, evidence, samples),
-        Decision::Unbiased => Outcome::new(Reason::None, evidence, samples),
-        Decision::Unclear => {
-            Outcome { verdict: Verdict::Inconclusive, ..Outcome::new(Reason::Noise, evidence, samples) }
-        }
+        Decision::Biased => CheckOutcome::new(Reason::Bias, evidence, samples),
+        Decision::Unbiased => CheckOutcome::new(Reason::None, evidence, samples),
+        Decision::Unclear => CheckOutcome {
+            verdict: Verdict::Inconclusive,
+            ..CheckOutcome::new(Reason::Noise, evidence, samples)
+        },
     }
 }
 
-/// Confidence of the intervals that are reported.
+/// Confidence of the reported intervals.
 const CONFIDENCE: f64 = 0.99;
 
-/// The measurements of a judgement. Light where all should be black is infinitely wrong, which is no number.
+/// The measurements of a judgement. Infinite values, as for light in a picture that should be black, become `None`.
 pub(super) fn mean_test(judgement: &Judgement, tolerance: f64) -> MeanTest {
     let effect = judgement.comparison.relative();
     let margin = judgement.comparison.relative_margin(CONFIDENCE);

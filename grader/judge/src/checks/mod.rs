@@ -1,8 +1,8 @@
-//! The checks: one file or folder a kind.
+//! The checks: one file or folder per kind.
 //!
-//! A new kind is one file that implements [`Check`] and one line in [`REGISTRY`] (its name stands in
-//! [`CheckKind`](verdict::check::CheckKind), its measurements in [`Evidence`](verdict::check::Evidence)): plan, rubric,
-//! grade and diagnosis ask the registry.
+//! A new kind is one file that implements [`Check`] and one line in [`REGISTRY`], besides its name in
+//! [`CheckKind`](verdict::check::CheckKind) and its measurements in [`Evidence`](verdict::check::Evidence). Plan,
+//! rubric, grade and diagnosis use the registry.
 
 mod check;
 mod closed_form;
@@ -22,14 +22,14 @@ mod stability;
 mod test_scenes;
 mod white_furnace;
 
-pub use check::{Check, Observation, Outcome, Quantity, WrongPlace};
-pub use context::{GradeContext, SceneWithReference, give_up, skip};
+pub use check::{Check, CheckOutcome, Observation, Quantity, WrongPlace};
+pub use context::{GradeContext, SceneWithReference, out_of_time, skipped};
 pub use harness::job::JobError;
 pub use mean_bias::expected as expected_by_reference;
 
 use verdict::check::CheckKind;
 
-/// All checks, one a kind.
+/// All checks, one per kind.
 static REGISTRY: [&dyn Check; CheckKind::ALL.len()] = [
     &closed_form::ClosedForm,
     &efficiency::Efficiency,
@@ -50,7 +50,7 @@ pub fn of_kind(kind: CheckKind) -> &'static dyn Check {
     REGISTRY
         .into_iter()
         .find(|check| check.kind() == kind)
-        .expect("every kind is registered: a test holds that")
+        .expect("every kind is registered, as a test checks")
 }
 
 #[cfg(test)]

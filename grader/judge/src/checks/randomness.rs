@@ -1,8 +1,8 @@
-//! **randomness**: is each pixel and each batch a thing of its own?
+//! **randomness**: are pixels and batches independent, and are renderings repeatable?
 //!
-//! Every standard error in this grader rests on that. A submission has to draw its random numbers from the sampler that
-//! it is given: then the same seed gives the same image, whatever was rendered before; another seed gives another; and
-//! no two pixels share anything.
+//! Every standard error in this grader assumes that. A submission must draw its random numbers from the sampler that
+//! it is given: then the same seed gives the same image, whatever was rendered before, another seed gives another
+//! image, and no two pixels share random numbers.
 
 use arty::sampler::batch_seed;
 use host::protocol::RenderJob;
@@ -10,16 +10,16 @@ use verdict::check::{CheckKind, Evidence, RandomNumbers, Reason};
 use verdict::rubric::CheckSpec;
 
 use super::context::settings_of;
-use super::{Check, GradeContext, JobError, Observation, Outcome, WrongPlace};
+use super::{Check, CheckOutcome, GradeContext, JobError, Observation, WrongPlace};
 use crate::reference::SIZE;
 use crate::statistics::batches::Batches;
 use crate::statistics::independence::{Dependence, dependence};
 
-/// Independent renderings, and samples of each pixel in each.
+/// Number of batches, and samples per pixel of each batch.
 const BATCHES: u64 = 64;
 const SAMPLES: u64 = 4;
 
-/// The level of the first look at the pixels, and of the one that confirms it with fresh seeds.
+/// Significance level of the first test for shared random numbers, and of its confirmation with fresh seeds.
 const LEVEL: f64 = 1e-4;
 
 pub(super) struct Randomness;
@@ -29,11 +29,11 @@ impl Check for Randomness {
         CheckKind::Randomness
     }
 
-    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<Outcome, JobError> {
+    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<CheckOutcome, JobError> {
         let mut samples = 0;
         let numbers = find(context, spec, &mut samples)?;
         let reason = if numbers == RandomNumbers::Independent { Reason::None } else { Reason::Randomness };
-        Ok(Outcome::new(reason, Evidence::Randomness(numbers), samples))
+        Ok(CheckOutcome::new(reason, Evidence::Randomness(numbers), samples))
     }
 
     fn observations(&self, evidence: &Evidence) -> Vec<Observation> {
@@ -51,10 +51,10 @@ impl Check for Randomness {
 fn find(context: &GradeContext<'_>, spec: &CheckSpec, samples: &mut u64) -> Result<RandomNumbers, JobError> {
     let seeds: Vec<u64> = (0..BATCHES).map(|batch| batch_seed(context.seed_of(spec), batch)).collect();
     let images = render(context, spec, &seeds, samples)?;
-    if let Some((a, b)) = alike(&images) {
+    if let Some((a, b)) = same_images(&images) {
         return Ok(RandomNumbers::SameImage([a as u32, b as u32]));
     }
-    // In a process of its own and in another order: nothing may be left over from what was rendered before.
+    // In a new process and in reverse order, so that no state of earlier renderings remains.
     let reversed: Vec<u64> = seeds.iter().rev().copied().collect();
     let again = render(context, spec, &reversed, samples)?;
     if images.iter().ne(again.iter().rev()) {
@@ -85,8 +85,8 @@ fn render(
     Ok(process.render(&job)?.batches)
 }
 
-/// Two images that are the same, bit by bit. Images without any noise are the same rightly: black ones, say.
-fn alike(images: &[Vec<[f32; 3]>]) -> Option<(usize, usize)> {
+/// Indices of two images that are equal bit by bit. Black images are ignored: they may well be equal.
+fn same_images(images: &[Vec<[f32; 3]>]) -> Option<(usize, usize)> {
     let black = |image: &[[f32; 3]]| image.iter().flatten().all(|&value| value == 0.0);
     let mut seen = std::collections::BTreeMap::new();
     for (index, image) in images.iter().enumerate().filter(|(_, image)| !black(image)) {

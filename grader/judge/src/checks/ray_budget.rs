@@ -1,9 +1,9 @@
-//! **ray-budget**: how many rays does a path take?
+//! **ray-budget**: how many rays does a path trace?
 //!
-//! The sheet asks for a single shadow ray at each hit point. How it is traced (`occluded`, or `intersect` and a look at
-//! what is hit) is the student's choice, and so is a ray of its own for multiple importance sampling: at most three
-//! rays for each bounce, and one from the camera. Points are lost only for more than that, and for paths that do not end.
-//! Shadow rays that cannot bring anything are remarked upon.
+//! The sheet asks for a single shadow ray at each hit point. Students may trace it with `occluded` or with
+//! `intersect`, and may trace a separate ray for multiple importance sampling: at most three rays per bounce and one
+//! camera ray. Only paths that exceed this or do not end cost points. Shadow rays that cannot contribute are reported
+//! as remarks.
 
 use std::ops::RangeInclusive;
 
@@ -14,13 +14,13 @@ use host::protocol::{ProbeJob, ProbedPath, ScriptedScene};
 use verdict::check::{CheckKind, Evidence, RayCounts, Reason, TooManyRays, WhyNot};
 use verdict::rubric::CheckSpec;
 
-use super::{Check, GradeContext, JobError, Observation, Outcome, SceneWithReference};
+use super::{Check, CheckOutcome, GradeContext, JobError, Observation, SceneWithReference};
 use crate::scenes;
 
-/// Lights in the room: more than any path may ask.
+/// Number of lights in the room: more than a path may sample.
 const LIGHTS: u32 = 8;
 
-/// Paths in each room.
+/// Number of paths per room.
 const PATHS: u64 = 256;
 
 pub(super) struct RayBudget;
@@ -42,7 +42,7 @@ impl Check for RayBudget {
         if scene.scene.features().lit_surfaces == 0 { Err(WhyNot::NothingLit) } else { Ok(()) }
     }
 
-    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<Outcome, JobError> {
+    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<CheckOutcome, JobError> {
         let mut process = context.start()?;
         let seed = context.seed_of(spec);
         let mut samples = 0;
@@ -76,7 +76,7 @@ impl Check for RayBudget {
             shadow_rays_without_lights: some(&without_lights),
         };
         let reason = if excess.is_some() { Reason::RayBudget } else { Reason::None };
-        Ok(Outcome::new(reason, Evidence::RayBudget(counts), samples))
+        Ok(CheckOutcome::new(reason, Evidence::RayBudget(counts), samples))
     }
 
     fn observations(&self, _: &Evidence) -> Vec<Observation> {
@@ -84,7 +84,7 @@ impl Check for RayBudget {
     }
 }
 
-/// What is beyond the budget, if anything is.
+/// The rays of paths that exceed the budget; `None` if no path does.
 fn too_many(paths: &[ProbedPath], bounces: u32) -> Option<TooManyRays> {
     let max = |count: fn(&ProbedPath) -> u32| paths.iter().map(count).max().unwrap_or(0);
     let (shadow_rays, rays) = (max(|path| path.shadow_rays), max(|path| path.rays + path.shadow_rays));
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn one_shadow_ray_however_it_is_traced_is_enough() {
+    fn one_shadow_ray_per_bounce_is_allowed_however_it_is_traced() {
         for (rays, shadow_rays, bounces) in [(2, 1, 1), (3, 0, 1), (4, 0, 1), (3, 1, 1), (4, 3, 3), (1, 0, 1)]
         {
             assert_eq!(too_many(&paths(rays, shadow_rays), bounces), None, "{rays} + {shadow_rays}");

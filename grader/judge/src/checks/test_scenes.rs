@@ -1,17 +1,11 @@
-//! Scenes of the collection, for tests.
-
-use arty::scene::Scene;
+//! Scenes of `scenes/` for tests.
 
 use super::SceneWithReference;
-use crate::reference;
+use crate::grade::load_scene;
 use harness::workspace::Workspace;
 
-/// A scene with its reference.
-pub(super) fn judged(name: &str) -> SceneWithReference {
-    let workspace = Workspace::find().expect("this is the repository");
-    let description =
-        arty::scene::file::load(&workspace.scene_file(name)).expect("the scene is right").description;
-    let reference = reference::load(&workspace.reference_file(name), name, &description)
-        .expect("the reference is up to date");
-    SceneWithReference { scene: Scene::new(&description), description, reference }
+/// Loads a scene with its reference.
+pub(super) fn load(name: &str) -> SceneWithReference {
+    let workspace = Workspace::find().expect("the tests run inside the checkout");
+    load_scene(&workspace, name).expect("the scene and its reference are up to date")
 }

@@ -1,11 +1,11 @@
-//! **white-furnace**: inside of a closed surface that emits the same radiance L_e everywhere, what is seen is known.
+//! **white-furnace**: inside a closed surface that emits the uniform radiance L_e, the image has a closed form.
 //!
-//! - A diffuse surface or a mirror that reflects the share ρ: L_e (1 + ρ + … + ρᵏ) after up to k bounces. Each k is
-//!   looked at, and c_k = (L_k − L_{k−1}) / (L_e ρᵏ), which should be 1, tells which bounce is wrong.
+//! - A diffuse surface or mirror with albedo ρ: L_e (1 + ρ + … + ρᵏ) after up to k bounces. Each k is tested, and
+//!   c_k = (L_k − L_{k−1}) / (L_e ρᵏ), which should be 1, shows which bounce is wrong.
 //! - Any other surface, after one bounce: L_e (1 + ∫ f cos θ dω), by quadrature.
-//! - Glass before a black surface that emits: L_e, once no path is on its way any more.
+//! - Glass in front of a black emitting surface: L_e, if all paths end within the maximum number of bounces.
 //!
-//! No reference has a say in that; only the noise that is normal comes from one.
+//! The expected means do not depend on the reference; only the expected variance does.
 
 use std::f64::consts::PI;
 
@@ -18,7 +18,9 @@ use verdict::rubric::CheckSpec;
 
 use super::context::replay_of;
 use super::means::{self, Anomalies, Picture};
-use super::{Check, GradeContext, JobError, Observation, Outcome, Quantity, SceneWithReference, mean_bias};
+use super::{
+    Check, CheckOutcome, GradeContext, JobError, Observation, Quantity, SceneWithReference, mean_bias,
+};
 use crate::reference::SIZE;
 use crate::statistics::bias::Expected;
 use crate::statistics::sequential::{Decision, Judgement};
@@ -34,10 +36,11 @@ impl Check for WhiteFurnace {
         Furnace::recognise(scene).map(drop)
     }
 
-    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<Outcome, JobError> {
+    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<CheckOutcome, JobError> {
         let scene = context.scene(spec);
-        let furnace = Furnace::recognise(scene)
-            .map_err(|why| Error::Input(format!("{}: no furnace ({why:?})", spec.id())))?;
+        let furnace = Furnace::recognise(scene).map_err(|why| {
+            Error::Input(format!("{}: the scene is not a white furnace ({why:?})", spec.id()))
+        })?;
         let orders = furnace.orders(spec.max_bounces);
         let noise = mean_bias::expected(spec, &scene.reference)?;
         let scenes = [&scene.description];
@@ -56,7 +59,7 @@ impl Check for WhiteFurnace {
             picture.seed ^= u64::from(order).rotate_right(8);
             judgements.push(picture.judge_in(&mut process, &loaded, &mut anomalies)?);
         }
-        // The first bounce that is wrong tells most; without one, the one that is known least.
+        // Report the first biased picture, or else the first inconclusive one, or else the last.
         let first = |decision| judgements.iter().position(|judgement| judgement.decision == decision);
         let worst = first(Decision::Biased).or(first(Decision::Unclear)).unwrap_or(judgements.len() - 1);
         let evidence = FurnaceTest {
@@ -66,7 +69,7 @@ impl Check for WhiteFurnace {
         };
         let samples = judgements.iter().map(|judgement| judgement.samples).sum();
         let outcome = means::conclude(&judgements[worst], Evidence::WhiteFurnace(evidence), samples);
-        // A path with fewer bounces is the beginning of one with more.
+        // A path with fewer bounces is a prefix of one with more, so that this target replays all of them.
         Ok(outcome.with(anomalies.numerics(Some(replay_of(spec)))))
     }
 
@@ -79,19 +82,19 @@ impl Check for WhiteFurnace {
     }
 }
 
-/// A closed scene that emits the same everywhere.
+/// A closed scene that emits uniformly.
 struct Furnace {
     emission: [f64; 3],
     walls: Walls,
 }
 
-/// What its walls do beside emitting.
+/// Scattering of the walls.
 enum Walls {
-    /// They reflect this share, whatever the angle.
+    /// Their albedo is this constant, whatever the angle.
     Uniform([f64; 3]),
-    /// What they reflect depends on the angle.
+    /// Their albedo depends on the angle.
     Glossy,
-    /// They are black, and before them is glass.
+    /// They are black, and all other surfaces are clear glass.
     Background,
 }
 
@@ -106,7 +109,7 @@ impl Furnace {
         used.sort_unstable();
         used.dedup();
         let used: Vec<&Material> = used.iter().map(|&index| &description.materials[index as usize]).collect();
-        let (walls, within): (Vec<&Material>, Vec<&Material>) =
+        let (walls, inner): (Vec<&Material>, Vec<&Material>) =
             used.into_iter().partition(|material| !material.emission.is_black());
         let [wall] = walls[..] else { return Err(WhyNot::NotUniform) };
         let emission = wall.emission.to_array().map(f64::from);
@@ -114,8 +117,8 @@ impl Furnace {
         let share = |color: arty::math::Rgb| color.to_array().map(f64::from);
         let walls = match wall.specular {
             _ if !description.lights.is_empty() => return Err(WhyNot::NotUniform),
-            _ if !within.is_empty() => {
-                if !(black && within.iter().all(|material| is_clear_glass(material))) {
+            _ if !inner.is_empty() => {
+                if !(black && inner.iter().all(|material| is_clear_glass(material))) {
                     return Err(WhyNot::NotUniform);
                 }
                 Walls::Background
@@ -128,7 +131,7 @@ impl Furnace {
         Ok(Self { emission, walls })
     }
 
-    /// The numbers of bounces that are looked at.
+    /// The maximum numbers of bounces that are tested.
     fn orders(&self, max_bounces: u32) -> Vec<u32> {
         match self.walls {
             Walls::Uniform(_) => (0..=max_bounces).collect(),
@@ -137,7 +140,7 @@ impl Furnace {
         }
     }
 
-    /// What each pixel shows after so many bounces.
+    /// Exact radiance of each pixel with up to `order` bounces.
     fn picture(&self, scene: &Scene, order: u32) -> Vec<[f64; 3]> {
         let all = |radiance: [f64; 3]| vec![radiance; (SIZE.0 * SIZE.1) as usize];
         match self.walls {
@@ -167,13 +170,13 @@ impl Furnace {
         (0..SIZE.1).flat_map(|y| (0..SIZE.0).map(move |x| (x, y))).map(|(x, y)| pixel(x, y)).collect()
     }
 
-    /// c_k for k = 0, 1, …, from the means of the whole image; empty where there is no series. Pictures of two orders are
-    /// independent.
+    /// c_k for k = 0, 1, …, from the means of the whole image; empty if there is no series. Pictures of different
+    /// orders are independent.
     fn energy(&self, judgements: &[Judgement]) -> Vec<BounceEnergy> {
         if !matches!(self.walls, Walls::Uniform(_)) {
             return Vec::new();
         }
-        // Green stands for all: the factor of a bounce is the same in each channel.
+        // The green channel suffices, since an error of a bounce is the same factor in each channel.
         let exact = |order: usize| self.series(1, order as u32);
         let seen = |order: usize| exact(order) * (1.0 + judgements[order].whole.relative());
         let margin = |order: usize| exact(order) * judgements[order].whole.relative_margin(CONFIDENCE);
@@ -194,7 +197,7 @@ impl Furnace {
     }
 }
 
-/// Confidence of the intervals of energies, as of all intervals in a report.
+/// Confidence of the intervals of energies, as of all intervals in reports.
 const CONFIDENCE: f64 = 0.99;
 
 fn is_clear_glass(material: &Material) -> bool {
@@ -206,16 +209,16 @@ fn is_clear_glass(material: &Material) -> bool {
     glass && material.diffuse.is_black()
 }
 
-/// ∫ f cos θ dω over the directions around that of the mirror, where a lobe is narrow.
+/// Albedo ∫ f cos θ dω, by quadrature in spherical coordinates around the mirror direction, where a lobe is narrow.
 fn albedo(hit: &Hit<'_>) -> [f64; 3] {
-    /// Steps from the mirror's direction to its opposite, and around it.
+    /// Number of steps in the polar angle and in the azimuth.
     const STEPS: (u32, u32) = (64, 24);
     let bsdf = hit.bsdf();
     let mirrored = 2.0 * hit.normal.dot(hit.wo) * hit.normal - hit.wo;
     let frame = Frame::around(mirrored);
     let mut sum = [0.0; 3];
     for i in 0..STEPS.0 {
-        // Even in the square root of 1 − cos α, which is nearly α.
+        // Uniform in the square root of 1 − cos α, which is nearly proportional to α.
         let root = (f64::from(i) + 0.5) / f64::from(STEPS.0);
         let cos = 1.0 - 2.0 * root * root;
         let sin = (1.0 - cos * cos).max(0.0).sqrt();
@@ -235,18 +238,18 @@ fn albedo(hit: &Hit<'_>) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::test_scenes::judged;
+    use crate::checks::test_scenes;
 
     #[test]
-    fn the_series_approaches_its_limit() {
+    fn the_series_converges_to_its_limit() {
         let furnace = Furnace { emission: [0.5, 1.0, 0.0], walls: Walls::Uniform([0.5, 0.0, 0.9]) };
         assert_eq!((furnace.series(0, 0), furnace.series(0, 2)), (0.5, 0.875));
         assert!((furnace.series(0, 60) - 1.0).abs() < 1e-12);
         assert_eq!((furnace.series(1, 7), furnace.series(2, 7)), (1.0, 0.0));
     }
 
-    /// The references are rendered, the furnaces' answers are not. Of 4 · 768 deviates one is beyond 6 in one of 160,000
-    /// sets of references. The sphere with a cap has corners; so has its closed form an error, of about 1 %.
+    /// References are rendered, closed forms are not. One of 4 · 768 deviates exceeds 6 in one of 160,000 sets of
+    /// references. The enclosures are polyhedra, so that the closed form has an error of its own.
     #[test]
     fn closed_forms_agree_with_references() {
         for (name, order, tolerance) in [
@@ -255,14 +258,14 @@ mod tests {
             ("furnace_mirror", 4, 1e-3),
             ("furnace_glass", 64, 5e-3),
         ] {
-            let judged = judged(name);
-            let furnace = Furnace::recognise(&judged).unwrap_or_else(|why| panic!("{name}: {why:?}"));
+            let scene = test_scenes::load(name);
+            let furnace = Furnace::recognise(&scene).unwrap_or_else(|why| panic!("{name}: {why:?}"));
             let view = verdict::rubric::View {
                 max_bounces: order,
                 emission_on_hit: verdict::rubric::EmissionOnHit::On,
             };
-            let rendered = &judged.reference.views[&view];
-            for (pixel, exact) in furnace.picture(&judged.scene, order).iter().enumerate() {
+            let rendered = &scene.reference.views[&view];
+            for (pixel, exact) in furnace.picture(&scene.scene, order).iter().enumerate() {
                 for channel in 0..3 {
                     let (exact, seen) = (exact[channel], rendered.mean[pixel][channel]);
                     let noise = rendered.variance_of_mean[pixel][channel].sqrt();
@@ -277,18 +280,18 @@ mod tests {
     }
 
     #[test]
-    fn other_scenes_are_none_and_say_why() {
+    fn other_scenes_are_refused_with_the_reason() {
         for (name, expected) in [("cornell_box", WhyNot::NotEnclosed), ("furnace_cap", WhyNot::NotUniform)] {
-            assert_eq!(Furnace::recognise(&judged(name)).err(), Some(expected), "{name}");
+            assert_eq!(Furnace::recognise(&test_scenes::load(name)).err(), Some(expected), "{name}");
         }
     }
 
-    /// In a sphere of which the share f emits, each point gets f L_e (ρ + … + ρᵏ).
+    /// In a sphere with an emitting fraction f of its area, the reflected radiance is f L_e (ρ + … + ρᵏ) everywhere.
     #[test]
-    fn a_sphere_with_a_cap_is_lit_evenly() {
-        let judged = judged("furnace_cap");
+    fn a_sphere_with_an_emitting_cap_is_lit_uniformly() {
+        let scene = test_scenes::load("furnace_cap");
         let area = |index: u32| -> f64 {
-            let mesh = &judged.description.meshes[0];
+            let mesh = &scene.description.meshes[0];
             let triangles = mesh.triangles.iter().filter(|triangle| triangle.material == index);
             triangles
                 .map(|triangle| {
@@ -298,18 +301,18 @@ mod tests {
                 })
                 .sum()
         };
-        let (cap, wall) = (&judged.description.materials[0], &judged.description.materials[1]);
+        let (cap, wall) = (&scene.description.materials[0], &scene.description.materials[1]);
         let share = area(0) / (area(0) + area(1));
         assert!(!cap.emission.is_black() && wall.emission.is_black());
         assert!((share - 0.2).abs() < 0.01, "{share}");
         let view =
             verdict::rubric::View { max_bounces: 8, emission_on_hit: verdict::rubric::EmissionOnHit::On };
-        let rendered = &judged.reference.views[&view];
+        let rendered = &scene.reference.views[&view];
         for channel in 0..3 {
             let (emission, albedo) =
                 (f64::from(cap.emission.to_array()[channel]), f64::from(wall.diffuse.to_array()[channel]));
             let exact: f64 = (1..=8).map(|k| share * emission * albedo.powi(k)).sum();
-            // Pixels that show some of the cap are brighter by a share of what it emits.
+            // Pixels that show part of the cap also contain its emission.
             let dark = rendered.mean.iter().filter(|mean| mean[channel] < exact + 0.05 * emission);
             let (sum, count) = dark.fold((0.0, 0), |(sum, count), mean| (sum + mean[channel], count + 1));
             let seen = sum / f64::from(count);

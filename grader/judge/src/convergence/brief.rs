@@ -1,34 +1,34 @@
-//! The short version that is part of every grade.
+//! The short measurement that is part of every grade.
 
 use arty::integrator::Technique;
 
-use super::measure::{Contestant, Options, measure};
+use super::measure::{MeasuredProgram, Options, measure};
 use harness::build::SubmissionProgram;
 use harness::workspace::Workspace;
-use verdict::convergence::{Convergence, LeftOut, Role};
+use verdict::convergence::{Convergence, NotMeasured, Role};
 use verdict::error::Result;
 
-/// The two scenes in which the techniques differ most in a short time.
+/// The two scenes in which the techniques differ most in a short run.
 const SCENES: [&str; 2] = ["cornell_box", "veach_mis"];
 
-/// Processor time of all renderings, in seconds.
+/// Processor time budget of all renderings, in seconds.
 const SECONDS: f64 = 1.8;
 
-/// Measures `mis` of a submission beside that of the solution and plain BSDF sampling, in about two seconds. In a checkout
-/// without the solution the submission's own BSDF sampling is all that there is to compare with.
+/// Measures `mis` of a submission beside that of the solution and BSDF sampling, in about two seconds. Without the
+/// solution, only the submission's own BSDF sampling is compared.
 ///
 /// # Errors
-/// What is not the submission's doing.
+/// If the grader itself fails.
 pub fn brief(
     workspace: &Workspace,
     submission: &SubmissionProgram,
     solution: Option<&SubmissionProgram>,
     seed: u64,
 ) -> Result<Convergence> {
-    let contestant = |name: &str, role, program| Contestant { name: name.to_owned(), role, program };
-    let mut contestants = vec![contestant("submission", Role::Submission, submission)];
-    contestants.extend(solution.map(|program| contestant("solution", Role::Solution, program)));
-    contestants.push(contestant("BSDF sampling", Role::Baseline, solution.unwrap_or(submission)));
+    let named = |name: &str, role, program| MeasuredProgram { name: name.to_owned(), role, program };
+    let mut programs = vec![named("submission", Role::Submission, submission)];
+    programs.extend(solution.map(|program| named("solution", Role::Solution, program)));
+    programs.push(named("BSDF sampling", Role::Baseline, solution.unwrap_or(submission)));
     let options = Options {
         scenes: SCENES.map(str::to_owned).to_vec(),
         techniques: vec![Technique::Mis],
@@ -38,14 +38,14 @@ pub fn brief(
         threads: 1,
         lengths: 5,
     };
-    let mut convergence = measure(workspace, &contestants, &options, |_| {})?;
+    let mut convergence = measure(workspace, &programs, &options, |_| {})?;
     if solution.is_none() {
         convergence.left_out.insert(
             0,
-            LeftOut {
+            NotMeasured {
                 program: "solution".to_owned(),
                 scene: String::new(),
-                why: "there is no solution in this checkout to compare with".to_owned(),
+                why: "this checkout does not have the solution".to_owned(),
             },
         );
     }

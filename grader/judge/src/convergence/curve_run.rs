@@ -1,4 +1,4 @@
-//! One program with one technique in one scene: what it is to render, and what it has.
+//! The measurement of one curve: the renderings that are planned and done.
 
 use arty::integrator::Settings;
 use arty::sampler::batch_seed;
@@ -11,48 +11,48 @@ use harness::job::apart;
 use verdict::check::Fault;
 use verdict::error::Result;
 
-/// One curve while it is measured.
+/// A curve that is being measured: one program with one technique in one scene.
 pub(super) struct CurveRun {
-    /// Its place among the contestants.
-    pub(super) contestant: usize,
+    /// Index of the program.
+    pub(super) program: usize,
     pub(super) settings: Settings,
     pub(super) seed: u64,
-    pub(super) levels: Vec<Level>,
+    pub(super) levels: Vec<RenderLength>,
     pub(super) non_finite: u64,
-    /// What ended it, if anything did.
+    /// The fault that ended the measurement, if any.
     pub(super) fault: Option<Fault>,
 }
 
 /// Renderings of one length.
 #[derive(Default)]
-pub(super) struct Level {
+pub(super) struct RenderLength {
     wanted: usize,
     renders: Renders,
-    /// Processor time of one rendering, job by job.
+    /// Processor time of one rendering in seconds, for each job.
     times: Vec<f64>,
 }
 
-/// Turns that the renderings of each length are divided into.
+/// Number of rounds that the renderings of each length are divided into.
 pub(super) const ROUNDS: usize = 3;
 
-/// Renderings of the greatest length, and the most of any.
+/// Number of renderings of the greatest length, and maximum of any length.
 const RENDERS: (usize, usize) = (6, 48);
 
-/// Of each length so many times as many renderings as of the next longer one.
-const MORE_OF_SHORTER: f64 = 1.5;
+/// Ratio of the number of renderings of a length to that of the next longer one.
+const SHORTER_FACTOR: f64 = 1.5;
 
-/// A rendering takes at most this long and, the shortest ones, hardly less than that, in seconds.
+/// Approximate minimum and maximum processor time of one rendering, in seconds.
 const RENDER_TIME: (f64, f64) = (0.3e-3, 5.0);
 
-/// Each length is at most so many times the next shorter one.
-const LARGEST_STEP: f64 = 4.0;
+/// Maximum ratio of a length to the next shorter one.
+const MAX_STEP: f64 = 4.0;
 
 impl CurveRun {
-    /// Warms up, sees how fast it goes, and plans renderings that take the given processor time altogether.
+    /// Warms up, measures the speed, and plans renderings that take the given processor time in total.
     pub(super) fn plan(&mut self, process: &mut HostProcess, seconds: f64, lengths: u32) -> Result<()> {
         let mut samples = 1;
         let per_sample = loop {
-            // What is rendered here is left out.
+            // These renderings are discarded.
             let Some((_, time)) = self.job(process, samples, &[batch_seed(self.seed, u64::MAX)])? else {
                 return Ok(());
             };
@@ -63,32 +63,32 @@ impl CurveRun {
         };
         let last = f64::from(lengths.max(2) - 1);
         let shortest = (RENDER_TIME.0 / per_sample).max(1.0);
-        let plan = |longest: f64| -> Vec<Level> {
-            let step = (longest / shortest).powf(1.0 / last).clamp(1.0, LARGEST_STEP);
+        let plan = |longest: f64| -> Vec<RenderLength> {
+            let step = (longest / shortest).powf(1.0 / last).clamp(1.0, MAX_STEP);
             let level = |k: u32| {
                 let samples = (longest / step.powf(last - f64::from(k))).round().max(1.0) as u64;
-                let more = MORE_OF_SHORTER.powi((lengths - 1 - k) as i32);
+                let more = SHORTER_FACTOR.powi((lengths - 1 - k) as i32);
                 let wanted = ((RENDERS.0 as f64 * more) as usize).min(RENDERS.1);
-                Level { wanted, renders: Renders { samples, ..Renders::default() }, times: Vec::new() }
+                RenderLength { wanted, renders: Renders { samples, ..Renders::default() }, times: Vec::new() }
             };
-            let mut levels: Vec<Level> = (0..lengths).map(level).collect();
+            let mut levels: Vec<RenderLength> = (0..lengths).map(level).collect();
             levels.dedup_by_key(|level| level.renders.samples);
             levels
         };
-        let takes = |levels: &[Level]| -> f64 {
+        let seconds_of = |levels: &[RenderLength]| -> f64 {
             levels.iter().map(|level| level.wanted as f64 * level.renders.samples as f64 * per_sample).sum()
         };
         let mut longest = (seconds / RENDERS.0 as f64).min(RENDER_TIME.1) / per_sample;
-        while longest > 1.0 && takes(&plan(longest)) > seconds {
+        while longest > 1.0 && seconds_of(&plan(longest)) > seconds {
             longest *= 0.95;
         }
         self.levels = plan(longest.max(1.0));
         Ok(())
     }
 
-    /// One turn of one length.
+    /// Renders one round of one length.
     pub(super) fn render(&mut self, process: &mut HostProcess, level: usize, round: usize) -> Result<()> {
-        let Some(Level { wanted, renders, .. }) = self.levels.get(level) else { return Ok(()) };
+        let Some(RenderLength { wanted, renders, .. }) = self.levels.get(level) else { return Ok(()) };
         let (samples, first) = (renders.samples, renders.images.len());
         let until = wanted * (round + 1) / ROUNDS;
         let seeds: Vec<u64> = (first..until)
@@ -104,7 +104,7 @@ impl CurveRun {
         Ok(())
     }
 
-    /// Renderings and the processor time of all of them; `None` once the program has failed.
+    /// Renders images and measures their total processor time; `None` if the program has failed.
     fn job(&mut self, process: &mut HostProcess, samples: u64, seeds: &[u64]) -> Result<Option<Rendered>> {
         if self.fault.is_some() {
             return Ok(None);
@@ -116,7 +116,7 @@ impl CurveRun {
                 let pixels =
                     |batch: Vec<[f32; 3]>| batch.into_iter().map(|pixel| pixel.map(f64::from)).collect();
                 let images = rendered.batches.into_iter().map(pixels).collect();
-                // A clock too coarse to see anything must not make time stand still.
+                // A coarse clock must not yield a time of 0.
                 Ok(Some((images, rendered.cpu_seconds.max(1e-9))))
             }
             Err(fault) => {
@@ -126,11 +126,11 @@ impl CurveRun {
         }
     }
 
-    /// What was rendered, from the shortest to the longest.
+    /// The renderings, shortest length first.
     pub(super) fn finish(&mut self) -> Vec<Renders> {
         let levels = std::mem::take(&mut self.levels).into_iter();
         let renders = levels.map(|mut level| {
-            // The median over the jobs: one that something else got in the way of does not count.
+            // The median over the jobs ignores those that other load on the machine has delayed.
             level.times.sort_unstable_by(f64::total_cmp);
             level.renders.seconds = level.times.get(level.times.len() / 2).copied().unwrap_or(0.0);
             level.renders

@@ -1,43 +1,43 @@
-//! From renderings to errors with intervals.
+//! Estimating errors with intervals from renderings.
 //!
-//! With renderings x_b and reference r, all that is needed are the products G_bc = mean(w·(x_b − r)(x_c − r)) over
-//! pixels and channels. Their diagonal gives the squared error; the rest, products of **different** renderings whose
-//! noise is independent, the squared bias without any variance in it.
+//! With renderings x_b and reference r, all estimates are functions of the products G_bc = mean(w·(x_b − r)(x_c − r))
+//! over pixels and channels. The diagonal gives the MSE; the other products, of **different** renderings with
+//! independent noise, give the squared bias without variance.
 
 use arty::sampler::{Sampler, batch_seed};
 
 use crate::image_error::{Truth, relative_weight, trimmed_relative_mse};
 use verdict::convergence::{Estimate, Point};
 
-/// How often renderings are drawn again.
+/// Number of bootstrap replicates.
 pub(super) const REPLICATES: usize = 400;
 
 /// Separate renderings of one length.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Renders {
-    /// Samples of each pixel in each.
+    /// Samples per pixel of each rendering.
     pub(super) samples: u64,
-    /// Processor time of one, in seconds.
+    /// Processor time of one rendering, in seconds.
     pub(super) seconds: f64,
-    /// Their pixels.
+    /// Pixels of each rendering.
     pub(super) images: Vec<Vec<[f64; 3]>>,
 }
 
-/// A point, and what became of its relative MSE in each of the [`REPLICATES`].
-pub(super) struct Estimated {
+/// A point of a curve, with its relative MSE in each of the [`REPLICATES`].
+pub(super) struct PointEstimate {
     pub(super) point: Point,
     pub(super) replicates: Vec<f64>,
 }
 
-/// The errors of renderings of one length; `None` for fewer than two renderings.
-pub(super) fn estimate(renders: &Renders, truth: Truth<'_>, seed: u64) -> Option<Estimated> {
+/// Estimates the errors of renderings of one length; `None` for fewer than two renderings.
+pub(super) fn estimate(renders: &Renders, truth: Truth<'_>, seed: u64) -> Option<PointEstimate> {
     let count = renders.images.len();
     if count < 2 {
         return None;
     }
     let images: Vec<&[[f64; 3]]> = renders.images.iter().map(Vec::as_slice).collect();
-    let absolute = Products::new(&images, truth, |_| 1.0);
-    let relative = Products::new(&images, truth, relative_weight);
+    let absolute = ErrorProducts::new(&images, truth, |_| 1.0);
+    let relative = ErrorProducts::new(&images, truth, relative_weight);
     let trimmed: Vec<f64> = images.iter().map(|image| trimmed_relative_mse(image, truth)).collect();
     let weighted = |weights: &[f64]| -> [f64; 5] {
         let total: f64 = weights.iter().sum();
@@ -47,7 +47,8 @@ pub(super) fn estimate(renders: &Renders, truth: Truth<'_>, seed: u64) -> Option
         [relative.mse(weights), mean_trimmed, mse, bias_squared, mse - bias_squared]
     };
     let values = weighted(&vec![1.0; count]);
-    let drawn: Vec<[f64; 5]> = Draws::new(seed, &[count]).map(|weights| weighted(&weights)).collect();
+    let drawn: Vec<[f64; 5]> =
+        BootstrapDraws::new(seed, &[count]).map(|weights| weighted(&weights)).collect();
     let [relative_mse, trimmed_relative_mse, mse, bias_squared, variance] = std::array::from_fn(|index| {
         with_percentiles(values[index], drawn.iter().map(|values| values[index]).collect())
     });
@@ -55,10 +56,11 @@ pub(super) fn estimate(renders: &Renders, truth: Truth<'_>, seed: u64) -> Option
     let renders = count;
     let point =
         Point { samples, renders, seconds, relative_mse, trimmed_relative_mse, mse, bias_squared, variance };
-    Some(Estimated { point, replicates: drawn.into_iter().map(|values| values[0]).collect() })
+    Some(PointEstimate { point, replicates: drawn.into_iter().map(|values| values[0]).collect() })
 }
 
-/// The relative squared bias from renderings of all lengths, each weighted by its samples, and its standard deviation.
+/// Estimates the relative squared bias from renderings of all lengths, weighted by their samples. Also returns its
+/// bootstrap standard deviation. `None` for fewer than two renderings.
 pub(super) fn relative_bias_squared(
     levels: &[Renders],
     truth: Truth<'_>,
@@ -70,10 +72,10 @@ pub(super) fn relative_bias_squared(
     if images.len() < 2 {
         return None;
     }
-    let products = Products::new(&images, truth, relative_weight);
+    let products = ErrorProducts::new(&images, truth, relative_weight);
     let value = products.bias_squared(&samples);
     let sizes: Vec<usize> = levels.iter().map(|level| level.images.len()).filter(|&size| size > 0).collect();
-    let drawn: Vec<f64> = Draws::new(seed, &sizes)
+    let drawn: Vec<f64> = BootstrapDraws::new(seed, &sizes)
         .map(|weights| {
             let weights: Vec<f64> =
                 weights.iter().zip(&samples).map(|(weight, samples)| weight * samples).collect();
@@ -85,7 +87,7 @@ pub(super) fn relative_bias_squared(
     Some((with_percentiles(value, drawn), variance.sqrt()))
 }
 
-/// An estimate with the percentiles of its replicates; those that are not numbers are left out.
+/// An estimate with the 95 % percentile interval of its replicates, ignoring NaN.
 pub(super) fn with_percentiles(value: f64, mut replicates: Vec<f64>) -> Estimate {
     replicates.retain(|value| !value.is_nan());
     replicates.sort_unstable_by(f64::total_cmp);
@@ -96,15 +98,15 @@ pub(super) fn with_percentiles(value: f64, mut replicates: Vec<f64>) -> Estimate
     Estimate { value, interval: [at(0.025), at(0.975)] }
 }
 
-/// The mean products of the errors of any two renderings.
-struct Products {
+/// The products G_bc of the errors of all pairs of renderings.
+struct ErrorProducts {
     count: usize,
-    of_two: Vec<f64>,
-    /// What the reference's noise adds to each.
+    pairs: Vec<f64>,
+    /// Contribution of the reference's noise to each product.
     noise: f64,
 }
 
-impl Products {
+impl ErrorProducts {
     fn new(images: &[&[[f64; 3]]], truth: Truth<'_>, weight: fn(f64) -> f64) -> Self {
         let roots: Vec<f64> = truth.mean.iter().flatten().map(|&value| weight(value).sqrt()).collect();
         let size = roots.len().max(1) as f64;
@@ -116,33 +118,33 @@ impl Products {
             })
             .collect();
         let count = images.len();
-        let mut of_two = vec![0.0; count * count];
+        let mut pairs = vec![0.0; count * count];
         for first in 0..count {
             for second in first..count {
                 let product: f64 = errors[first].iter().zip(&errors[second]).map(|(a, b)| a * b).sum();
-                of_two[first * count + second] = product / size;
-                of_two[second * count + first] = product / size;
+                pairs[first * count + second] = product / size;
+                pairs[second * count + first] = product / size;
             }
         }
         let noise = truth.variance.map_or(0.0, |variance| {
             variance.iter().flatten().zip(&roots).map(|(variance, root)| root * root * variance).sum::<f64>()
                 / size
         });
-        Self { count, of_two, noise }
+        Self { count, pairs, noise }
     }
 
-    /// The mean squared error, each rendering with its weight.
+    /// The weighted mean squared error.
     fn mse(&self, weights: &[f64]) -> f64 {
-        let sum: f64 = (0..self.count).map(|b| weights[b] * self.of_two[b * self.count + b]).sum();
+        let sum: f64 = (0..self.count).map(|b| weights[b] * self.pairs[b * self.count + b]).sum();
         sum / weights.iter().sum::<f64>() - self.noise
     }
 
-    /// The squared bias: over pairs of different renderings only. NaN if only one has a weight.
+    /// The weighted squared bias, over pairs of different renderings. NaN if only one rendering has a weight.
     fn bias_squared(&self, weights: &[f64]) -> f64 {
         let (mut sum, mut total) = (0.0, 0.0);
         for (first, &weight) in weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
             for (second, other) in weights.iter().enumerate().skip(first + 1) {
-                sum += weight * other * self.of_two[first * self.count + second];
+                sum += weight * other * self.pairs[first * self.count + second];
                 total += weight * other;
             }
         }
@@ -150,20 +152,21 @@ impl Products {
     }
 }
 
-/// How often each rendering is drawn, again and again; renderings are drawn within their own length.
-struct Draws<'a> {
+/// Bootstrap replicates: the number of times that each rendering is drawn. Renderings are drawn within their own
+/// length.
+struct BootstrapDraws<'a> {
     seed: u64,
     sizes: &'a [usize],
     drawn: usize,
 }
 
-impl<'a> Draws<'a> {
+impl<'a> BootstrapDraws<'a> {
     fn new(seed: u64, sizes: &'a [usize]) -> Self {
         Self { seed, sizes, drawn: 0 }
     }
 }
 
-impl Iterator for Draws<'_> {
+impl Iterator for BootstrapDraws<'_> {
     type Item = Vec<f64>;
 
     fn next(&mut self) -> Option<Vec<f64>> {
@@ -190,7 +193,7 @@ mod tests {
 
     const PIXELS: usize = 256;
 
-    /// Renderings of a picture of 1 whose pixels have a given bias and standard deviation (uniform noise).
+    /// Renderings of a constant picture of 1, with the given bias and standard deviation (uniform noise).
     fn renders(count: usize, bias: f64, deviation: f64, seed: u64) -> Renders {
         let mut sampler = Sampler::new(seed, (0, 0), 0);
         let width = deviation * 12.0_f64.sqrt();
@@ -200,7 +203,7 @@ mod tests {
         Renders { samples: 4, seconds: 0.5, images }
     }
 
-    /// Whether the 95 % interval holds the true value, in how many of 100 repetitions.
+    /// The number of 100 repetitions in which the 95 % interval contains the true value.
     fn coverage(select: fn(&Point) -> Estimate, truth: f64) -> usize {
         let reference = [[1.0; 3]; PIXELS];
         let holds = |seed: u64| {
@@ -214,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn bias_and_variance_are_told_apart_and_intervals_hold_what_is_true() {
+    fn bias_and_variance_are_separated_and_intervals_have_coverage() {
         // A percentile interval of 24 renderings covers about 92 of 100; 80 or fewer has a chance below 1e-3.
         assert!(coverage(|point| point.mse, 0.01 + 0.25) > 80);
         assert!(coverage(|point| point.bias_squared, 0.01) > 80);
@@ -223,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn the_noise_of_the_reference_is_no_bias() {
+    fn the_noise_of_the_reference_is_not_bias() {
         let (mean, variance) = ([[0.9; 3]; PIXELS], [[0.01; 3]; PIXELS]);
         let renders = renders(16, 0.0, 0.1, 3);
         let without = estimate(&renders, Truth { mean: &mean, variance: None }, 1).expect("many").point;
@@ -248,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn one_rendering_says_nothing() {
+    fn one_rendering_has_no_estimate() {
         let reference = [[1.0; 3]; PIXELS];
         let truth = Truth { mean: &reference, variance: None };
         assert!(estimate(&renders(1, 0.0, 0.1, 1), truth, 1).is_none());

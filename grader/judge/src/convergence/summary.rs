@@ -1,12 +1,13 @@
-//! What a whole curve says.
+//! Summary numbers of a curve.
 
-use super::estimate::{Estimated, with_percentiles};
+use super::estimate::{PointEstimate, with_percentiles};
 use crate::statistics::regression::fit;
 use verdict::convergence::{Estimate, Point};
 
-/// The slope of ln(relative MSE) over ln(seconds). Errors that came out negative, being nothing but noise, are left out.
-pub(super) fn slope(levels: &[Estimated]) -> Option<Estimate> {
-    let of = |error: &dyn Fn(&Estimated) -> f64| -> Option<f64> {
+/// The slope of ln(relative MSE) over ln(seconds). Points with a negative error, which is pure noise, are ignored.
+/// `None` with fewer than four usable points.
+pub(super) fn slope(levels: &[PointEstimate]) -> Option<Estimate> {
+    let of = |error: &dyn Fn(&PointEstimate) -> f64| -> Option<f64> {
         let usable = levels.iter().map(|level| (level.point.seconds, error(level)));
         let points: Vec<([f64; 1], f64)> = usable
             .filter(|&(seconds, error)| seconds > 0.0 && error > 0.0)
@@ -18,10 +19,10 @@ pub(super) fn slope(levels: &[Estimated]) -> Option<Estimate> {
     Some(with_percentiles(value, replicated(levels, |index| of(&|level| level.replicates[index]))))
 }
 
-/// How much more efficient one curve is than another: the ratio of their 1/(relative MSE × seconds), as the geometric
-/// mean over the longer half of the renderings.
-pub(super) fn efficiency(levels: &[Estimated], solution: &[Estimated]) -> Option<Estimate> {
-    let log_cost = |levels: &[Estimated], error: &dyn Fn(&Estimated) -> f64| -> Option<f64> {
+/// Efficiency relative to the solution: the ratio of 1/(relative MSE × seconds), as the geometric mean over the longer
+/// half of the renderings.
+pub(super) fn efficiency(levels: &[PointEstimate], solution: &[PointEstimate]) -> Option<Estimate> {
+    let log_cost = |levels: &[PointEstimate], error: &dyn Fn(&PointEstimate) -> f64| -> Option<f64> {
         let longer = &levels[levels.len() / 2..];
         let costs: Vec<f64> = longer
             .iter()
@@ -30,20 +31,20 @@ pub(super) fn efficiency(levels: &[Estimated], solution: &[Estimated]) -> Option
             .collect();
         (!costs.is_empty()).then(|| costs.iter().map(|cost| cost.ln()).sum::<f64>() / costs.len() as f64)
     };
-    let of = |error: &dyn Fn(&Estimated) -> f64| -> Option<f64> {
+    let of = |error: &dyn Fn(&PointEstimate) -> f64| -> Option<f64> {
         Some((log_cost(solution, error)? - log_cost(levels, error)?).exp())
     };
     let value = of(&|level| level.point.relative_mse.value)?;
     Some(with_percentiles(value, replicated(levels, |index| of(&|level| level.replicates[index]))))
 }
 
-fn replicated(levels: &[Estimated], of: impl Fn(usize) -> Option<f64>) -> Vec<f64> {
+fn replicated(levels: &[PointEstimate], of: impl Fn(usize) -> Option<f64>) -> Vec<f64> {
     let count = levels.first().map_or(0, |level| level.replicates.len());
     (0..count).filter_map(of).collect()
 }
 
-/// The time after which the error is `target`: between two points on the line through them in log–log, before the
-/// first by the slope −1. `None` if even the longest renderings have more.
+/// The time to reach a relative MSE of `target`, by log–log interpolation between two points, or by a slope of −1
+/// before the first. `None` if even the longest renderings have a larger error.
 pub(super) fn seconds_to(target: f64, points: &[Point]) -> Option<f64> {
     let reached = points.iter().position(|point| point.relative_mse.value <= target)?;
     let (after, error) = (points[reached].seconds, points[reached].relative_mse.value.max(f64::MIN_POSITIVE));
@@ -54,7 +55,7 @@ pub(super) fn seconds_to(target: f64, points: &[Point]) -> Option<f64> {
     Some((before.seconds.ln() + share * (after / before.seconds).ln()).exp())
 }
 
-/// One significant digit, for a target that someone has to read.
+/// Rounds to one significant digit, for a readable target.
 pub(super) fn rounded(value: f64) -> f64 {
     let unit = 10.0_f64.powf(value.log10().floor());
     if unit > 0.0 && unit.is_finite() { (value / unit).round() * unit } else { value }
@@ -64,7 +65,7 @@ pub(super) fn rounded(value: f64) -> f64 {
 mod tests {
     use super::*;
 
-    fn curve(error: fn(f64) -> f64) -> Vec<Estimated> {
+    fn curve(error: fn(f64) -> f64) -> Vec<PointEstimate> {
         let level = |k: i32| {
             let seconds = 0.01 * 4.0_f64.powi(k);
             let value = error(seconds);
@@ -79,12 +80,12 @@ mod tests {
                 bias_squared: exact,
                 variance: exact,
             };
-            Estimated { point, replicates: vec![value; 3] }
+            PointEstimate { point, replicates: vec![value; 3] }
         };
         (0..6).map(level).collect()
     }
 
-    fn points(levels: &[Estimated]) -> Vec<Point> {
+    fn points(levels: &[PointEstimate]) -> Vec<Point> {
         levels.iter().map(|level| level.point.clone()).collect()
     }
 
@@ -103,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn the_time_to_an_error_is_read_off_the_curve() {
+    fn the_time_to_a_target_is_interpolated() {
         let points = points(&curve(|seconds| 0.02 / seconds));
         for target in [3.0, 1.0, 0.02] {
             let seconds = seconds_to(target, &points).expect("it gets there");

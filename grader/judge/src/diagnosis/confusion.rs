@@ -1,33 +1,33 @@
-//! How often is the right cause named?
+//! The confusion matrix of the diagnosis.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use super::{Catalogue, UNKNOWN, Vector};
+use super::{Catalogue, ObservationVector, UNKNOWN};
 
-/// A vector whose cause is known.
+/// The diagnosis of a variant whose cause is known.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// The variant that it was measured of.
+    /// Name of the variant.
     pub variant: String,
-    /// The seed of its grade.
+    /// Seed of its grade.
     pub seed: u64,
-    /// The cause that should be named; none if none should.
+    /// The right cause; `None` for a correct variant.
     pub truth: Option<String>,
-    /// The causes that are named, the likeliest first.
+    /// The diagnosed causes, most likely first.
     pub named: Vec<String>,
 }
 
-/// What became of all cases.
+/// The diagnoses of all variants.
 #[derive(Clone, Debug, Default)]
 pub struct Confusion {
-    /// One for each variant and seed.
+    /// One case per variant and seed.
     pub cases: Vec<Case>,
 }
 
 impl Confusion {
-    /// Diagnoses a vector whose cause is known.
-    pub fn add(&mut self, catalogue: &Catalogue, variant: &str, seed: u64, vector: &Vector) {
+    /// Diagnoses the vector of a variant and adds the case.
+    pub fn add(&mut self, catalogue: &Catalogue, variant: &str, seed: u64, vector: &ObservationVector) {
         self.cases.push(Case {
             variant: variant.to_owned(),
             seed,
@@ -36,7 +36,7 @@ impl Confusion {
         });
     }
 
-    /// The wrong cases, and those of them whose cause stands first, and among the causes that are named.
+    /// Number of cases of wrong variants, of those with the right cause first, and of those with it among the causes.
     pub fn wrong(&self) -> [usize; 3] {
         let wrong = || self.cases.iter().filter(|case| case.truth.is_some());
         let first = wrong().filter(|case| case.named.first() == case.truth.as_ref()).count();
@@ -45,15 +45,14 @@ impl Confusion {
         [wrong().count(), first, named]
     }
 
-    /// The right cases, and those of them for which some cause is named all the same.
+    /// Number of cases of correct variants, and of those with a cause nevertheless.
     pub fn right(&self) -> [usize; 2] {
         let right = || self.cases.iter().filter(|case| case.truth.is_none());
         [right().count(), right().filter(|case| !case.named.is_empty()).count()]
     }
 
-    /// As Markdown: for each cause what was named first, and which cases went wrong.
-    /// `early` is what became of the same cases in grades that stop early, each with the number of failures that they stop
-    /// after.
+    /// The matrix as Markdown. `early` holds the cases of grades that stop each task after a number of failures, with
+    /// that number.
     pub fn table(&self, made_by: &str, early: &[(usize, Self)]) -> String {
         let ([wrong, first, named], [right, blamed]) = (self.wrong(), self.right());
         let percent = |count: usize| 100.0 * count as f64 / wrong.max(1) as f64;

@@ -1,16 +1,16 @@
-//! Causes that are seen without comparing anything.
+//! Causes that are found without comparing signatures.
 
 use arty::integrator::Technique;
 use verdict::check::{CheckKind, CheckResult, Evidence, Fault, Reason, WeightForm};
 use verdict::report::{Cause, Diagnosis, Report, SeenIn};
 
-use super::Found;
+use super::ExplainedCause;
 
-/// The techniques that a submission has to fill in.
+/// The techniques that a submission implements.
 const BOTH: [Technique; 2] = [Technique::Nee, Technique::Mis];
 
-/// Causes that are plain from the report and the source.
-pub(super) fn causes(report: &Report, source: &str) -> Vec<Found> {
+/// Causes that are evident from the report and the source.
+pub(super) fn causes(report: &Report, source: &str, starter: &str) -> Vec<ExplainedCause> {
     if report.submission.build_failure.is_some() {
         let refused = report.submission.refusal.is_some();
         let cause = if refused { Cause::NothingToCompile } else { Cause::DoesNotCompile };
@@ -19,7 +19,7 @@ pub(super) fn causes(report: &Report, source: &str) -> Vec<Found> {
     let stopped = |reason: Reason| report.checks.iter().filter(move |check| check.reason == reason);
     let mut all = Vec::new();
     if let Some(crashed) = stopped(Reason::Crash).next() {
-        // Where it does not panic, something else may be wrong.
+        // A panic explains no technique: another mistake may be present.
         let cause = if is_todo(crashed) { Cause::TodoLeft } else { Cause::Panics };
         all.push(found(cause, Some(crashed), &[]));
     }
@@ -27,29 +27,29 @@ pub(super) fn causes(report: &Report, source: &str) -> Vec<Found> {
     if 2 * late > report.checks.len() {
         all.push(found(Cause::DoesNotFinish { late }, stopped(Reason::Timeout).next(), &BOTH));
     }
-    let untouched = Untouched::of(source);
+    let untouched = Untouched::of(source, starter);
     if all.is_empty() && untouched.everything {
         all.push(found(Cause::NotBegun, None, &BOTH));
-    } else if all.is_empty() && untouched.mis && weighs_nothing(report) {
+    } else if all.is_empty() && untouched.mis && has_constant_weights(report) {
         all.push(found(Cause::MisNotBegun, None, &[Technique::Mis]));
     }
     all
 }
 
-fn found(cause: Cause, seen: Option<&CheckResult>, explains: &[Technique]) -> Found {
+fn found(cause: Cause, seen: Option<&CheckResult>, explains: &[Technique]) -> ExplainedCause {
     let seen = seen.map(|check| SeenIn { wrong: check.id.clone(), right: None });
-    Found { diagnosis: Diagnosis { cause, confidence: 1.0, seen }, explains: explains.to_vec() }
+    ExplainedCause { diagnosis: Diagnosis { cause, confidence: 1.0, seen }, explains: explains.to_vec() }
 }
 
-/// True if it came to a macro of the standard library for code that is still to be written: only its message tells.
+/// True if the panic comes from `todo!` or `unimplemented!`, which only its message shows.
 fn is_todo(check: &CheckResult) -> bool {
     let Some(Fault::Panic(message)) = &check.fault else { return false };
     ["not yet implemented", "not implemented"].iter().any(|beginning| message.starts_with(beginning))
 }
 
-/// What can be said where no known mistake fits: that direct light is too bright or too dark by the same factor in all
-/// scenes in which only light samples bring it.
-pub(super) fn constant_factor(report: &Report) -> Option<Found> {
+/// A cause for submissions that no known mistake fits: direct light is wrong by the same factor in all scenes in which
+/// only light samples find it.
+pub(super) fn constant_factor(report: &Report) -> Option<ExplainedCause> {
     let direct = report.checks.iter().filter(|check| {
         check.id.technique == Technique::Nee
             && check.id.max_bounces == 1
@@ -60,9 +60,9 @@ pub(super) fn constant_factor(report: &Report) -> Option<Found> {
         direct.filter_map(|check| Some((factor(check)?, check))).collect();
     factors.sort_by(|a, b| a.0.total_cmp(&b.0));
     let factor = factors.get(factors.len() / 2)?.0;
-    factors.retain(|(other, _)| (other / factor - 1.0).abs() < ALIKE);
-    let is_one = (factor - 1.0).abs() < 2.0 * ALIKE || factor < ALIKE;
-    (factors.len() >= ENOUGH && !is_one).then(|| {
+    factors.retain(|(other, _)| (other / factor - 1.0).abs() < SAME_FACTOR);
+    let is_one = (factor - 1.0).abs() < 2.0 * SAME_FACTOR || factor < SAME_FACTOR;
+    (factors.len() >= MIN_SCENES && !is_one).then(|| {
         let scenes = factors.iter().map(|(_, check)| check.id.scene.clone()).collect();
         let mut found = found(Cause::ConstantFactor { factor, scenes }, None, &[]);
         found.diagnosis.confidence = 0.5;
@@ -70,14 +70,14 @@ pub(super) fn constant_factor(report: &Report) -> Option<Found> {
     })
 }
 
-/// Factors that differ by less are the same.
-const ALIKE: f64 = 0.04;
+/// Relative difference below which two factors count as equal.
+const SAME_FACTOR: f64 = 0.04;
 
-/// Scenes that have to agree.
-const ENOUGH: usize = 4;
+/// Minimum number of scenes with the same factor.
+const MIN_SCENES: usize = 4;
 
-/// True if the weights of `mis` were read, and are the same whatever the densities.
-fn weighs_nothing(report: &Report) -> bool {
+/// True if the weights of `mis` were measured and are constant.
+fn has_constant_weights(report: &Report) -> bool {
     let is_constant = |form: WeightForm| matches!(form, WeightForm::Constant(_));
     report.checks.iter().any(|check| match &check.evidence {
         Some(Evidence::MisWeights(test)) => {
@@ -87,43 +87,40 @@ fn weighs_nothing(report: &Report) -> bool {
     })
 }
 
-/// Which parts nobody has begun, by the marks of the starting file; nothing where there are no such marks.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Which parts of a submission have not been begun. Neither, if it or the starting file has no task blocks.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Untouched {
-    /// No line of code is in any of its blocks, but those of the starting file.
+    /// Its task blocks hold no code beyond that of the starting file's blocks.
     everything: bool,
-    /// The code never speaks of the technique `Mis`.
+    /// Some blocks were filled in, but the code never names the technique `Mis`.
     mis: bool,
 }
 
 impl Untouched {
-    fn of(source: &str) -> Self {
-        let (mut blocks, mut written, mut within) = (0, 0, false);
-        for line in source.lines().map(str::trim) {
-            if line.starts_with("// TASK") {
-                within = true;
-                blocks += 1;
-            } else if line.starts_with("// END") {
-                within = false;
-            } else if within && !line.is_empty() && !line.starts_with("//") && !GIVEN.contains(&line) {
-                written += 1;
-            }
-        }
-        let code = |line: &str| line.split("//").next().unwrap_or_default().contains("Mis");
-        let everything = blocks > 0 && written == 0;
-        Self { everything, mis: blocks > 0 && !everything && !source.lines().any(code) }
+    fn of(source: &str, starter: &str) -> Self {
+        let (Some(written), Some(given)) = (code_in_blocks(source), code_in_blocks(starter)) else {
+            return Self::default();
+        };
+        let names_mis = |line: &str| line.split("//").next().unwrap_or_default().contains("Mis");
+        let everything = written.iter().all(|line| given.contains(line));
+        Self { everything, mis: !everything && !source.lines().any(names_mis) }
     }
 }
 
-/// The code in the blocks of the starting file.
-const GIVEN: [&str; 6] = [
-    "last_bounce = Some(LastBounce {});",
-    "let _ = (scene, hit, bsdf, sampler); // Delete this line once you use them.",
-    "Rgb::BLACK",
-    "let _ = (scene, hit, emission, last_bounce); // Delete this line once you use them.",
-    "1.0",
-    "struct LastBounce {}",
-];
+/// The lines of code between `// TASK` and `// END`, without indentation; `None` if there is no such block.
+fn code_in_blocks(source: &str) -> Option<Vec<&str>> {
+    let (mut code, mut has_block, mut is_inside) = (Vec::new(), false, false);
+    for line in source.lines().map(str::trim) {
+        if line.starts_with("// TASK") {
+            (has_block, is_inside) = (true, true);
+        } else if line.starts_with("// END") {
+            is_inside = false;
+        } else if is_inside && !line.is_empty() && !line.starts_with("//") {
+            code.push(line);
+        }
+    }
+    has_block.then_some(code)
+}
 
 #[cfg(test)]
 mod tests {
@@ -132,11 +129,11 @@ mod tests {
     use verdict::sample::report;
 
     fn named(report: &Report, source: &str) -> Vec<String> {
-        causes(report, source).into_iter().map(|found| found.diagnosis.cause.id().to_owned()).collect()
+        causes(report, source, BLOCK).into_iter().map(|found| found.diagnosis.cause.id().to_owned()).collect()
     }
 
     #[test]
-    fn what_stops_the_program_is_named() {
+    fn panics_and_timeouts_are_causes() {
         let mut report = report("x");
         report.checks[0].reason = Reason::Crash;
         report.checks[0].fault = Some(Fault::Panic("not yet implemented: the weights (a.rs:1)".to_owned()));
@@ -151,11 +148,11 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_does_not_compile_needs_no_other_cause() {
+    fn a_file_that_does_not_compile_has_no_other_cause() {
         let mut report = report("x");
         let messages = "error[E0425]: cannot find value `x`".to_owned();
         report.submission.build_failure = Some(verdict::submission::BuildFailure { messages, line: Some(7) });
-        let found = causes(&report, BLOCK);
+        let found = causes(&report, BLOCK, BLOCK);
         assert_eq!(found.len(), 1);
         assert_eq!(found[0].diagnosis.cause, Cause::DoesNotCompile);
         assert!(found[0].is_everything());
@@ -164,7 +161,7 @@ mod tests {
     const BLOCK: &str = "// TASK 5.1a\n    Rgb::BLACK\n// what to do\n// END 5.1a\n";
 
     #[test]
-    fn only_blocks_without_code_of_ones_own_are_untouched() {
+    fn blocks_with_the_starters_code_only_are_untouched() {
         let everything = Untouched { everything: true, mis: false };
         let mis = Untouched { everything: false, mis: true };
         let nothing = Untouched { everything: false, mis: false };
@@ -174,7 +171,8 @@ mod tests {
             (format!("{BLOCK}// TASK 5.2\nmatch t {{ Mis => 1.0 }}\n// END\n"), nothing),
             ("fn without_marks() {}".to_owned(), nothing),
         ] {
-            assert_eq!(Untouched::of(&source), expected, "{source}");
+            assert_eq!(Untouched::of(&source, BLOCK), expected, "{source}");
+            assert_eq!(Untouched::of(&source, ""), nothing, "without a starting file: {source}");
         }
     }
 }

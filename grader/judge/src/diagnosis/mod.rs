@@ -1,13 +1,13 @@
-//! Why is it wrong? Likely causes of what the checks of a report have found, in words for students.
+//! Diagnosis: likely causes of the failed checks of a report, in words for students.
 //!
-//! A report is turned into [`Vector`], what each check saw as numbers (`observation`). The wrong variants of the
-//! solution have been graded, and their vectors are the *signatures* of the mistakes that are known
-//! (`signatures`, `cargo lab signatures`). The causes of a report are those whose signatures are nearest
-//! (`distance`, `rank`), unless even the nearest is too far: then the cause is unknown, and the report says so. What
-//! can be seen without any comparison is told first (`direct`): a file that does not compile or panics, tasks that nobody
-//! has begun. The words stand in the assignment's `causes.yml`, and `seen` names the checks that decided.
+//! A report is converted to an [`ObservationVector`], the measurements of each check as numbers (`observation`). The
+//! wrong variants of the solution have been graded, and their vectors are the *signatures* of the known mistakes
+//! (`signatures`, `cargo lab signatures`). The causes of a report are those with the nearest signatures (`distance`,
+//! `rank`); if even the nearest is too far, the cause is unknown, and the report says so. Causes that need no
+//! comparison come first (`direct`): a submission that does not compile or panics, or tasks that have not been begun.
+//! The texts are in the assignment's `causes.yml`, and `seen` selects the checks that are evidence for a cause.
 //!
-//! Whatever is compared, only checks count that both sides have: a grade may leave checks out, or stop early.
+//! Only checks that both sides have are compared: a grade may omit checks, or stop early.
 
 mod confusion;
 mod direct;
@@ -18,7 +18,7 @@ mod seen;
 mod signatures;
 
 pub use confusion::{Case, Confusion};
-pub use observation::{Number, Seen, State, Vector};
+pub use observation::{CheckObservations, CheckState, Number, ObservationVector};
 pub use signatures::Signatures;
 
 use std::path::{Path, PathBuf};
@@ -30,56 +30,60 @@ use verdict::check::CheckResult;
 use verdict::error::{Error, Result};
 use verdict::report::{self, Diagnosis, Report};
 
-/// How many causes are named at most.
+/// Maximum number of causes of a report.
 pub const MAX_CAUSES: usize = 3;
 
-/// Name of the cause that is not known.
+/// Identifier of an unknown cause.
 pub const UNKNOWN: &str = "unknown";
 
-/// The mistakes that are known in an assignment.
+/// The known mistakes of an assignment.
 #[derive(Clone, Debug, Default)]
 pub struct Catalogue {
     causes: Vec<Cause>,
     signatures: Signatures,
 }
 
-/// A mistake in words.
+/// A known mistake.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cause {
-    /// Its name.
+    /// Identifier.
     pub id: String,
-    /// The wrong variants that show how it looks.
+    /// Names of the wrong variants that have this mistake.
     pub variants: Vec<String>,
-    /// What it is, in a sentence.
+    /// Description in one sentence.
     pub title: String,
-    /// What to think about.
+    /// Hint for the student.
     pub hint: String,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+struct CausesFile {
     causes: Vec<Cause>,
 }
 
 impl Catalogue {
-    /// Reads an assignment's causes and signatures. An assignment need not have them: then only what is seen directly is
-    /// diagnosed.
+    /// Reads the causes and signatures of an assignment. Both files are optional: without them, only direct causes are
+    /// found.
     ///
     /// # Errors
-    /// If one of the files is not as it should be, or signatures are missing for a variant that a cause names.
+    /// If one of the files is invalid, or a variant named by a cause has no signature.
     pub fn load(assignment: &Path) -> Result<Self> {
         let (words, measured) = (Self::words_file(assignment), Self::signatures_file(assignment));
         let catalogue = Self {
-            causes: if words.is_file() { arty::yaml::read::<File>(&words)?.0.causes } else { Vec::new() },
+            causes: if words.is_file() {
+                arty::yaml::read::<CausesFile>(&words)?.0.causes
+            } else {
+                Vec::new()
+            },
             signatures: if measured.is_file() { Signatures::load(&measured)? } else { Signatures::default() },
         };
         for cause in &catalogue.causes {
             for variant in &cause.variants {
                 if !catalogue.signatures.is_empty() && catalogue.signatures.get(variant).is_none() {
                     let message = format!(
-                        "{}: nothing was measured of the variant {variant}; run `cargo lab signatures`",
+                        "{}: the variant {variant} has no signature; run `cargo lab signatures`",
                         cause.id
                     );
                     return Err(Error::file(&words, message));
@@ -89,40 +93,41 @@ impl Catalogue {
         Ok(catalogue)
     }
 
-    /// The file with the words.
+    /// Path of the file with the causes.
     pub fn words_file(assignment: &Path) -> PathBuf {
         assignment.join("causes.yml")
     }
 
-    /// The file with what was measured.
+    /// Path of the file with the signatures.
     pub fn signatures_file(assignment: &Path) -> PathBuf {
         assignment.join("signatures.json")
     }
 
-    /// The same words with other signatures.
+    /// The same causes with other signatures.
     pub fn with(&self, signatures: Signatures) -> Self {
         Self { causes: self.causes.clone(), signatures }
     }
 
-    /// All mistakes, in the order of the file.
+    /// All known mistakes, in the order of the file.
     pub fn causes(&self) -> &[Cause] {
         &self.causes
     }
 
-    /// The cause that a variant shows.
+    /// The mistake of a variant; `None` if no cause names the variant.
     pub fn cause_of(&self, variant: &str) -> Option<&Cause> {
         self.causes.iter().find(|cause| cause.variants.iter().any(|other| other == variant))
     }
 
-    /// At most [`MAX_CAUSES`] likely causes, the likeliest first. None for a submission whose checks all pass.
-    pub fn diagnose(&self, report: &Report, source: &str) -> Vec<Diagnosis> {
-        let wrong = report.checks.iter().any(CheckResult::is_lacking);
+    /// At most [`MAX_CAUSES`] likely causes, most likely first. Empty for a submission whose checks all pass.
+    /// `starter` is the text of the assignment's starting file, empty if it has none.
+    pub fn diagnose(&self, report: &Report, source: &str, starter: &str) -> Vec<Diagnosis> {
+        let wrong = report.checks.iter().any(CheckResult::costs_points);
         if !wrong && report.submission.build_failure.is_none() {
             return Vec::new();
         }
-        let mut found = direct::causes(report, source);
+        let mut found = direct::causes(report, source, starter);
         let explained = |technique: Technique| found.iter().any(|direct| direct.explains(technique));
-        let vector = Vector::of(report).without(explained);
+        let vector = ObservationVector::of(report).without(explained);
         if found.iter().all(|direct| !direct.is_everything()) {
             found.extend(self.compared(report, &vector));
         }
@@ -141,12 +146,12 @@ impl Catalogue {
         found.into_iter().map(|found| found.diagnosis).collect()
     }
 
-    fn compared(&self, report: &Report, vector: &Vector) -> Vec<Found> {
+    fn compared(&self, report: &Report, vector: &ObservationVector) -> Vec<ExplainedCause> {
         let found = |candidate: &rank::Candidate<'_>| {
             let Cause { id, title, hint, .. } = candidate.cause.clone();
             let seen = seen::seen(self, report, vector, candidate);
             let cause = report::Cause::Known { id, title, hint };
-            Found {
+            ExplainedCause {
                 diagnosis: Diagnosis { cause, confidence: candidate.confidence, seen },
                 explains: Vec::new(),
             }
@@ -154,9 +159,9 @@ impl Catalogue {
         rank::rank(self, vector).iter().map(found).collect()
     }
 
-    /// The names of the causes that a vector of observations is diagnosed with, as [`Self::diagnose`] would.
-    pub fn names(&self, vector: &Vector) -> Vec<&str> {
-        if vector.is_right() {
+    /// Identifiers of the causes that [`Self::diagnose`] finds by comparison for an observation vector.
+    pub fn names(&self, vector: &ObservationVector) -> Vec<&str> {
+        if vector.all_pass() {
             return Vec::new();
         }
         let names: Vec<&str> = rank::rank(self, vector)
@@ -168,19 +173,19 @@ impl Catalogue {
     }
 }
 
-/// A cause, and what of the submission needs no other.
-struct Found {
+/// A cause, and the techniques whose failures it explains.
+struct ExplainedCause {
     diagnosis: Diagnosis,
     /// The techniques whose failures it explains.
     explains: Vec<Technique>,
 }
 
-impl Found {
+impl ExplainedCause {
     fn explains(&self, technique: Technique) -> bool {
         self.explains.contains(&technique)
     }
 
-    /// True if nothing is left to be explained.
+    /// True if it explains the failures of both techniques.
     fn is_everything(&self) -> bool {
         [Technique::Nee, Technique::Mis].into_iter().all(|technique| self.explains(technique))
     }

@@ -1,4 +1,4 @@
-//! What the checks of a report saw, as numbers that can be compared.
+//! The observations of a report's checks, as numbers that can be compared.
 
 use std::collections::BTreeMap;
 
@@ -9,32 +9,32 @@ use verdict::report::Report;
 
 use crate::checks::{Quantity, of_kind};
 
-/// How a check ended, as far as it matters for the cause.
+/// Result of a check, reduced to what matters for the cause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum State {
-    /// It is right.
+pub enum CheckState {
+    /// It passed.
     Pass,
-    /// Too noisy to tell.
+    /// Too noisy to decide.
     Unclear,
-    /// A wrong mean, wrong weights, shared random numbers: what the check is for.
+    /// It failed for the property that it tests, such as the mean or the weights.
     Wrong,
     /// Samples that are not radiance.
     Numerics,
-    /// It took too long.
+    /// It exceeded its time limit.
     Timeout,
-    /// It panicked, died, or answered with what was not asked for.
+    /// The submission panicked, died or violated the protocol.
     Crash,
 }
 
-impl State {
-    /// All of them, each with the letter that stands for it in files.
-    pub(super) const LETTERS: [(State, char); 6] = [
-        (State::Pass, '.'),
-        (State::Unclear, '?'),
-        (State::Wrong, 'F'),
-        (State::Numerics, 'N'),
-        (State::Timeout, 'T'),
-        (State::Crash, 'C'),
+impl CheckState {
+    /// All states with their letters in files.
+    pub(super) const LETTERS: [(CheckState, char); 6] = [
+        (CheckState::Pass, '.'),
+        (CheckState::Unclear, '?'),
+        (CheckState::Wrong, 'F'),
+        (CheckState::Numerics, 'N'),
+        (CheckState::Timeout, 'T'),
+        (CheckState::Crash, 'C'),
     ];
 
     fn of(check: &CheckResult) -> Option<Self> {
@@ -50,51 +50,51 @@ impl State {
     }
 }
 
-/// A measured number with its standard error.
+/// A measured value and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Number(pub f64, pub f64);
 
-/// What one check saw.
+/// The observations of one check.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Seen {
-    /// How it ended.
-    pub state: State,
-    /// Its measurements; none where it passed.
+pub struct CheckObservations {
+    /// Result of the check.
+    pub state: CheckState,
+    /// Measured quantities; empty if it passed.
     pub numbers: BTreeMap<Quantity, Number>,
 }
 
-/// What all checks of a report saw.
+/// The observations of all checks of a report.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Vector(pub BTreeMap<CheckId, Seen>);
+pub struct ObservationVector(pub BTreeMap<CheckId, CheckObservations>);
 
-impl Vector {
-    /// The checks of a report that were run, but for those whose scenes are other ones with each seed.
+impl ObservationVector {
+    /// The observations of a report's checks that were run, without `hidden-variants`, whose scenes depend on the seed.
     pub fn of(report: &Report) -> Self {
         let seen = |check: &CheckResult| {
             if check.id.kind == CheckKind::HiddenVariants {
                 return None;
             }
-            let state = State::of(check)?;
-            let numbers = if state == State::Pass { BTreeMap::new() } else { numbers(check) };
-            Some((check.id.clone(), Seen { state, numbers }))
+            let state = CheckState::of(check)?;
+            let numbers = if state == CheckState::Pass { BTreeMap::new() } else { numbers(check) };
+            Some((check.id.clone(), CheckObservations { state, numbers }))
         };
         Self(report.checks.iter().filter_map(seen).collect())
     }
 
-    /// True if no check has anything to complain of.
-    pub fn is_right(&self) -> bool {
-        self.0.values().all(|seen| seen.state == State::Pass)
+    /// True if all checks passed.
+    pub fn all_pass(&self) -> bool {
+        self.0.values().all(|seen| seen.state == CheckState::Pass)
     }
 
-    /// What a grade would have seen that stops in each task after so many checks that do not pass. `order` has task and
-    /// identity of all checks, in the order in which they are run.
+    /// The observations of a grade that stops each task after this many checks that do not pass. `order` lists task and
+    /// identity of all checks in the order in which they are run.
     pub fn stopped_after(&self, order: &[(String, CheckId)], failures: usize) -> Self {
         let mut failed: BTreeMap<&str, usize> = BTreeMap::new();
         let mut stopped = Self::default();
         for (task, check) in order {
             let count = failed.entry(task).or_default();
             if let Some(seen) = self.0.get(check).filter(|_| *count < failures) {
-                *count += usize::from(seen.state != State::Pass);
+                *count += usize::from(seen.state != CheckState::Pass);
                 stopped.0.insert(check.clone(), seen.clone());
             }
         }
@@ -106,7 +106,7 @@ impl Vector {
         self.clone().without(|other| other != technique)
     }
 
-    /// Without the checks of some techniques.
+    /// Removes the checks of some techniques.
     pub(super) fn without(mut self, is_excluded: impl Fn(Technique) -> bool) -> Self {
         self.0.retain(|id, _| !is_excluded(id.technique));
         self

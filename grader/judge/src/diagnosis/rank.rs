@@ -1,64 +1,64 @@
-//! Which mistakes look most like what was seen?
+//! Ranking the known mistakes by their distance from a report.
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use arty::integrator::Technique;
 
 use super::distance::Distance;
-use super::observation::{State, Vector};
+use super::observation::{CheckState, ObservationVector};
 use super::{Catalogue, Cause, MAX_CAUSES};
 
-/// A cause whose best fit is less likely than this is none.
-const REJECTED: f64 = 1e-3;
+/// Minimum p-value of a cause that fits.
+const MIN_P_VALUE: f64 = 1e-3;
 
-/// The same for a cause that is to explain one technique only: with fewer checks, more fits by chance.
-const REJECTED_ALONE: f64 = 0.05;
+/// Minimum p-value of a cause for one technique only: with fewer checks, more causes fit by chance.
+const MIN_P_VALUE_ONE_TECHNIQUE: f64 = 0.05;
 
-/// The share of what is wrong that a signature has to say something about.
-const COVERED: f64 = 0.4;
+/// Minimum share of the failed checks that a signature must cover.
+const MIN_COVERAGE: f64 = 0.4;
 
-/// Numbers of one submission go astray together, so that a difference of distances says this many times less than it
-/// would of independent ones.
-const TOGETHER: f64 = 3.0;
+/// The numbers of one submission are correlated: differences of squared distances are divided by this.
+const CORRELATION: f64 = 3.0;
 
-/// Causes that are less likely than this, all in all, are not named.
-const NOT_WORTH_NAMING: f64 = 0.04;
+/// Minimum confidence of a cause that is reported.
+const MIN_CONFIDENCE: f64 = 0.04;
 
-/// How likely it has to be that one of those that are named is right.
-const TOGETHER_LIKELY: f64 = 0.5;
+/// Minimum total confidence of the causes that are reported.
+const MIN_TOTAL_CONFIDENCE: f64 = 0.5;
 
-/// By how much two mistakes have to fit better than one for two to be believed.
-const TWO_INSTEAD_OF_ONE: f64 = 15.0;
+/// Minimum improvement of the squared distance for diagnosing two mistakes instead of one.
+const TWO_CAUSES_PENALTY: f64 = 15.0;
 
-/// A cause that fits.
+/// A cause with its distance from the report.
 #[derive(Clone, Debug)]
 pub(super) struct Candidate<'a> {
     pub(super) cause: &'a Cause,
-    /// The variant of the cause that fits best.
+    /// The variant of the cause with the smallest distance.
     pub(super) variant: &'a str,
-    /// The technique that it was compared in; none if in all.
+    /// The technique that was compared; `None` for all.
     pub(super) technique: Option<Technique>,
-    /// How likely it is among all that are known, in [0, 1].
+    /// Posterior probability among all causes, in [0, 1].
     pub(super) confidence: f64,
     distance: Distance,
 }
 
 impl Candidate<'_> {
     fn fits(&self) -> bool {
-        let Distance { squared, freedom, .. } = self.distance;
-        let level = if self.technique.is_some() { REJECTED_ALONE } else { REJECTED };
-        ChiSquared::new(f64::from(freedom)).is_ok_and(|distribution| distribution.sf(squared) >= level)
+        let Distance { squared, degrees_of_freedom, .. } = self.distance;
+        let level = if self.technique.is_some() { MIN_P_VALUE_ONE_TECHNIQUE } else { MIN_P_VALUE };
+        ChiSquared::new(f64::from(degrees_of_freedom))
+            .is_ok_and(|distribution| distribution.sf(squared) >= level)
     }
 }
 
-/// The causes that fit, the likeliest first; none if none does. If no single mistake explains everything, one for each
-/// technique may.
-pub(super) fn rank<'a>(catalogue: &'a Catalogue, vector: &Vector) -> Vec<Candidate<'a>> {
+/// The causes that fit, most likely first. If no single cause explains everything, the causes of each technique are
+/// ranked separately and merged.
+pub(super) fn rank<'a>(catalogue: &'a Catalogue, vector: &ObservationVector) -> Vec<Candidate<'a>> {
     let joint = within(catalogue, vector, None);
     let parts: Vec<Vec<Candidate<'a>>> = [Technique::Nee, Technique::Mis]
         .into_iter()
         .map(|technique| (technique, vector.of_technique(technique)))
-        .filter(|(_, part)| !part.is_right())
+        .filter(|(_, part)| !part.all_pass())
         .map(|(technique, part)| within(catalogue, &part, Some(technique)))
         .collect();
     let best = |ranking: &[Candidate<'a>]| ranking.first().filter(|it| it.fits()).cloned();
@@ -66,20 +66,24 @@ pub(super) fn rank<'a>(catalogue: &'a Catalogue, vector: &Vector) -> Vec<Candida
     let apart = firsts.iter().fold(Distance::default(), |sum, first| sum.plus(first.distance));
     let all_explained = !parts.is_empty() && firsts.len() == parts.len();
     let one = best(&joint)
-        .filter(|one| !(all_explained && apart.squared + TWO_INSTEAD_OF_ONE < one.distance.squared));
+        .filter(|one| !(all_explained && apart.squared + TWO_CAUSES_PENALTY < one.distance.squared));
     match one {
         Some(_) => worth_naming(joint),
         None => merge(parts.into_iter().map(worth_naming).collect()),
     }
 }
 
-/// All causes by their distance, where there is anything to compare.
-fn within<'a>(catalogue: &'a Catalogue, vector: &Vector, technique: Option<Technique>) -> Vec<Candidate<'a>> {
+/// All comparable causes, sorted by distance, with their confidences.
+fn within<'a>(
+    catalogue: &'a Catalogue,
+    vector: &ObservationVector,
+    technique: Option<Technique>,
+) -> Vec<Candidate<'a>> {
     let candidate = |cause: &'a Cause| {
         let distances = cause.variants.iter().filter_map(|variant| {
             let signature = catalogue.signatures.get(variant)?;
             let distance = Distance::between(vector, signature);
-            let comparable = distance.covered >= COVERED && explains_something(vector, signature);
+            let comparable = distance.coverage >= MIN_COVERAGE && explains_something(vector, signature);
             comparable.then_some((variant.as_str(), distance))
         });
         let (variant, distance) = distances.min_by(|a, b| a.1.squared.total_cmp(&b.1.squared))?;
@@ -88,7 +92,7 @@ fn within<'a>(catalogue: &'a Catalogue, vector: &Vector, technique: Option<Techn
     let mut all: Vec<Candidate<'a>> = catalogue.causes().iter().filter_map(candidate).collect();
     all.sort_by(|a, b| a.distance.squared.total_cmp(&b.distance.squared));
     let nearest = all.first().map_or(0.0, |first| first.distance.squared);
-    let weight = |it: &Candidate<'_>| (-0.5 * (it.distance.squared - nearest) / TOGETHER).exp();
+    let weight = |it: &Candidate<'_>| (-0.5 * (it.distance.squared - nearest) / CORRELATION).exp();
     let sum: f64 = all.iter().map(weight).sum();
     for candidate in &mut all {
         candidate.confidence = weight(candidate) / sum;
@@ -96,26 +100,26 @@ fn within<'a>(catalogue: &'a Catalogue, vector: &Vector, technique: Option<Techn
     all
 }
 
-/// True if there is a check that is not right on both sides.
-fn explains_something(vector: &Vector, signature: &Vector) -> bool {
-    let mut wrong = vector.0.iter().filter(|(_, seen)| seen.state != State::Pass);
-    wrong.any(|(check, _)| signature.0.get(check).is_some_and(|seen| seen.state != State::Pass))
+/// True if some check fails on both sides.
+fn explains_something(vector: &ObservationVector, signature: &ObservationVector) -> bool {
+    let mut wrong = vector.0.iter().filter(|(_, seen)| seen.state != CheckState::Pass);
+    wrong.any(|(check, _)| signature.0.get(check).is_some_and(|seen| seen.state != CheckState::Pass))
 }
 
-/// The first few, unless so many fit alike that naming these few would be arbitrary.
+/// The first causes of a ranking; empty if so many fit equally well that the selection would be arbitrary.
 fn worth_naming(ranking: Vec<Candidate<'_>>) -> Vec<Candidate<'_>> {
-    let worth = |candidate: &Candidate<'_>| candidate.fits() && candidate.confidence >= NOT_WORTH_NAMING;
+    let worth = |candidate: &Candidate<'_>| candidate.fits() && candidate.confidence >= MIN_CONFIDENCE;
     let named: Vec<Candidate<'_>> = ranking.into_iter().filter(worth).take(MAX_CAUSES).collect();
     let together: f64 = named.iter().map(|candidate| candidate.confidence).sum();
-    if together >= TOGETHER_LIKELY { named } else { Vec::new() }
+    if together >= MIN_TOTAL_CONFIDENCE { named } else { Vec::new() }
 }
 
-/// True if some cause fits, even if too many do to name any.
-pub(super) fn something_fits(catalogue: &Catalogue, vector: &Vector) -> bool {
+/// True if some cause fits, even if too many fit to report any.
+pub(super) fn something_fits(catalogue: &Catalogue, vector: &ObservationVector) -> bool {
     within(catalogue, vector, None).first().is_some_and(Candidate::fits)
 }
 
-/// The first of each part, then the second ones, and so on; each cause once.
+/// Interleaves rankings: the first of each, then the second of each, and so on, without duplicates.
 fn merge(parts: Vec<Vec<Candidate<'_>>>) -> Vec<Candidate<'_>> {
     let mut merged: Vec<Candidate<'_>> = Vec::new();
     for place in 0..MAX_CAUSES {

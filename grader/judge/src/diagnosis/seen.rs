@@ -1,63 +1,64 @@
-//! The checks that speak for a cause.
+//! Selecting the checks that are evidence for a cause.
 
 use arty::integrator::Technique;
 use verdict::check::{CheckKind, CheckResult, Verdict};
 use verdict::report::{Report, SeenIn};
 
-use super::distance::of_check;
-use super::observation::{State, Vector};
+use super::distance::check_distance;
+use super::observation::{CheckState, ObservationVector};
 use super::rank::Candidate;
 use super::{Catalogue, Cause};
 
-/// How little a check must be apart from the signature to speak for it.
-const AGREES: f64 = 4.0;
+/// Maximum contribution to the distance of a check that agrees with the signature.
+const MAX_AGREEING_DISTANCE: f64 = 4.0;
 
-/// By how much a check that passes has to tell a cause from others, on average, to be worth naming.
-const TELLS: f64 = 2.0;
+/// Minimum mean distance from other causes of a passing check that is evidence.
+const MIN_SEPARATION: f64 = 2.0;
 
-/// What was seen that speaks for the candidate and against other causes: a check that is wrong as the candidate would
-/// have it, and, if there is one, a check that passes where others would not.
+/// The evidence for a candidate: a check that fails the way the candidate predicts and, if there is one, a check that
+/// passes although other causes would make it fail.
 pub(super) fn seen(
     catalogue: &Catalogue,
     report: &Report,
-    vector: &Vector,
+    vector: &ObservationVector,
     candidate: &Candidate<'_>,
 ) -> Option<SeenIn> {
     let signature = catalogue.signatures.get(candidate.variant)?;
     let of_technique = |check: &&CheckResult| candidate.technique.is_none_or(|it| check.id.technique == it);
-    let telling = |check: &CheckResult| -> Option<f64> {
+    let separation = |check: &CheckResult| -> Option<f64> {
         let (seen, expected) = (vector.0.get(&check.id)?, signature.0.get(&check.id)?);
-        let agrees = of_check(seen, expected).is_some_and(|apart| apart <= AGREES);
-        agrees.then(|| mean_of_others(catalogue, candidate.cause, vector, check)).flatten()
+        let agrees = check_distance(seen, expected).is_some_and(|apart| apart <= MAX_AGREEING_DISTANCE);
+        agrees.then(|| mean_distance_of_others(catalogue, candidate.cause, vector, check)).flatten()
     };
-    let nee_is_right = vector.of_technique(Technique::Nee).is_right();
+    let nee_is_right = vector.of_technique(Technique::Nee).all_pass();
     let best = |passes: bool| {
         let of_state = |check: &&CheckResult| {
-            vector.0.get(&check.id).is_some_and(|seen| (seen.state == State::Pass) == passes)
+            vector.0.get(&check.id).is_some_and(|seen| (seen.state == CheckState::Pass) == passes)
         };
         let checks = report.checks.iter().filter(of_technique).filter(of_state);
         let mut scored: Vec<(&CheckResult, f64)> =
-            checks.filter_map(|check| Some((check, telling(check)?))).collect();
-        // Of checks that tell nearly as much as the best, the one that is simplest to understand, and of these the first.
+            checks.filter_map(|check| Some((check, separation(check)?))).collect();
+        // Of the checks with nearly the best separation, take the one that is easiest to understand, and of these the
+        // first.
         scored.sort_by(|a, b| b.1.total_cmp(&a.1));
         let (_, most) = *scored.first()?;
-        let nearly = scored.into_iter().filter(|(_, score)| *score >= NEARLY * most);
-        nearly.min_by_key(|(check, _)| (effort(check, nee_is_right), place(report, check)))
+        let nearly = scored.into_iter().filter(|(_, score)| *score >= NEARLY_BEST * most);
+        nearly.min_by_key(|(check, _)| (effort(check, nee_is_right), index_of(report, check)))
     };
     let wrong = best(false).map(|(check, _)| check);
     let fallback = || {
         let mut failed = report.checks.iter().filter(of_technique);
-        failed.find(|check| vector.0.get(&check.id).is_some_and(|seen| seen.state != State::Pass))
+        failed.find(|check| vector.0.get(&check.id).is_some_and(|seen| seen.state != CheckState::Pass))
     };
     let wrong = wrong.or_else(fallback)?.id.clone();
-    let right = best(true).filter(|(_, score)| *score >= TELLS).map(|(check, _)| check.id.clone());
+    let right = best(true).filter(|(_, score)| *score >= MIN_SEPARATION).map(|(check, _)| check.id.clone());
     Some(SeenIn { wrong, right })
 }
 
-/// Which share of the most that a check tells is nearly as much.
-const NEARLY: f64 = 0.6;
+/// Share of the best separation that counts as nearly the best.
+const NEARLY_BEST: f64 = 0.6;
 
-/// How hard it is to see what a check's result means. Weights mean little where light samples themselves are wrong.
+/// How hard a result is to understand: 0 is easiest. Weights mean little if light samples are wrong.
 fn effort(check: &CheckResult, nee_is_right: bool) -> u32 {
     let whole = check.mean_test().and_then(|test| test.whole);
     let exact = whole.is_some_and(|whole| whole.relative.abs() > 10.0 * whole.margin);
@@ -71,17 +72,22 @@ fn effort(check: &CheckResult, nee_is_right: bool) -> u32 {
     }
 }
 
-fn place(report: &Report, check: &CheckResult) -> usize {
+fn index_of(report: &Report, check: &CheckResult) -> usize {
     report.checks.iter().position(|other| std::ptr::eq(other, check)).unwrap_or(usize::MAX)
 }
 
-/// How far the check is from other causes, on average.
-fn mean_of_others(catalogue: &Catalogue, own: &Cause, vector: &Vector, check: &CheckResult) -> Option<f64> {
+/// Mean contribution of the check to the distances of other causes; `None` if no other cause has it.
+fn mean_distance_of_others(
+    catalogue: &Catalogue,
+    own: &Cause,
+    vector: &ObservationVector,
+    check: &CheckResult,
+) -> Option<f64> {
     let seen = vector.0.get(&check.id)?;
     let others = catalogue.causes().iter().filter(|cause| cause.id != own.id);
     let distances: Vec<f64> = others
         .filter_map(|cause| catalogue.signatures.get(cause.variants.first()?)?.0.get(&check.id))
-        .filter_map(|other| of_check(seen, other))
+        .filter_map(|other| check_distance(seen, other))
         .collect();
     (!distances.is_empty()).then(|| distances.iter().sum::<f64>() / distances.len() as f64)
 }

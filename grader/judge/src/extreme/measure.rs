@@ -1,49 +1,50 @@
-//! The mean of one picture, with its error and with what is no radiance in it.
+//! Measuring the mean of one picture, its standard error and the samples that are not radiance.
 
 use arty::integrator::{Settings, Technique};
 use arty::sampler::batch_seed;
 use host::protocol::{AnomalousSample, RenderJob};
 
-use super::answers::{Answer, Extreme};
+use super::answers::{Answer, ExtremeScene};
 use harness::host_process::HostProcess;
 use harness::job::JobError;
 
-/// Independent renderings.
+/// Number of batches.
 const BATCHES: u64 = 32;
 
-/// Standard errors that are noise. With 31 degrees of freedom one mean is beyond them once in 50 million times.
+/// Number of standard errors that count as noise. With 31 degrees of freedom, a mean exceeds it once in 50 million
+/// times.
 pub const NOISE: f64 = 7.0;
 
-/// How many paths there are in one measurement, at least.
+/// Minimum number of paths of one measurement.
 #[derive(Clone, Copy, Debug)]
-pub struct Effort(pub u64);
+pub struct MinPaths(pub u64);
 
-/// What was measured of one picture.
+/// The measurement of one picture.
 #[derive(Clone, Debug, Default)]
-pub struct Measured {
-    /// The mean over all pixels and channels.
+pub struct Measurement {
+    /// Mean over all pixels and channels.
     pub mean: f64,
-    /// Its standard error.
+    /// Standard error of `mean`.
     pub standard_error: f64,
-    /// Samples that were NaN or infinite; they are black in the mean.
+    /// Number of samples that were NaN or infinite. They count as black in the mean.
     pub non_finite: u64,
-    /// Samples that were negative.
+    /// Number of samples that were negative.
     pub negative: u64,
-    /// The first of either kind.
+    /// The first such sample.
     pub first: Option<AnomalousSample>,
-    /// Paths traced.
+    /// Number of paths traced.
     pub paths: u64,
-    /// Processor time for all of them, in seconds.
+    /// Processor time of all paths, in seconds.
     pub seconds: f64,
 }
 
-impl Measured {
-    /// The difference from the true value, relative to it; absolute where that is 0.
+impl Measurement {
+    /// Error of the mean relative to the exact mean; absolute if that is 0.
     pub fn error(&self, truth: f64) -> f64 {
         relative(self.mean - truth, truth)
     }
 
-    /// The error that noise alone would explain, relative to the true value.
+    /// Error that noise explains, relative to the exact mean; absolute if that is 0.
     pub fn noise(&self, truth: f64) -> f64 {
         relative(NOISE * self.standard_error, truth)
     }
@@ -58,18 +59,18 @@ fn relative(value: f64, truth: f64) -> f64 {
     if truth == 0.0 { value } else { value / truth.abs() }
 }
 
-/// Renders a scene that the process has loaded.
+/// Measures a scene that the process has loaded.
 ///
 /// # Errors
-/// What is not the program's doing.
+/// If the program gives no valid answer, or the grader itself fails.
 pub fn measure(
     process: &mut HostProcess,
     scene: u32,
     settings: Settings,
     size: [u32; 2],
-    Effort(paths): Effort,
+    MinPaths(paths): MinPaths,
     seed: u64,
-) -> Result<Measured, JobError> {
+) -> Result<Measurement, JobError> {
     let pixels = u64::from(size[0]) * u64::from(size[1]);
     let samples = paths.div_ceil(pixels * BATCHES);
     let seeds = (0..BATCHES).map(|batch| batch_seed(seed, batch)).collect();
@@ -79,7 +80,7 @@ pub fn measure(
     };
     let means: Vec<f64> = rendered.batches.iter().map(mean_of).collect();
     let (mean, standard_error) = mean_and_error(&means);
-    Ok(Measured {
+    Ok(Measurement {
         mean,
         standard_error,
         non_finite: rendered.non_finite,
@@ -92,9 +93,9 @@ pub fn measure(
 
 /// Mean and standard error of some numbers.
 ///
-/// Numbers are divided by the largest first, so that squares of 1e30 and of 1e-30 stay what they are.
+/// The numbers are scaled by the largest, so that squares of numbers such as 1e300 neither overflow nor underflow.
 pub fn mean_and_error(values: &[f64]) -> (f64, f64) {
-    let scale = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    let scale = values.iter().fold(0.0, |max: f64, value| max.max(value.abs()));
     if scale == 0.0 || values.is_empty() {
         return (0.0, 0.0);
     }
@@ -104,46 +105,46 @@ pub fn mean_and_error(values: &[f64]) -> (f64, f64) {
     (scale * mean, scale * (squares / (count - 1.0).max(1.0) / count).sqrt())
 }
 
-/// A scene of the table as a program shows it.
+/// A program's result in an extreme scene.
 #[derive(Clone, Debug)]
-pub struct Finding {
-    /// The scene.
+pub struct ExtremeSceneResult {
+    /// Name of the scene.
     pub scene: String,
-    /// How it was rendered.
+    /// Settings of the path tracer.
     pub settings: Settings,
     /// Width and height of the picture.
     pub size: [u32; 2],
-    /// What it should show.
+    /// Exact mean.
     pub truth: f64,
-    /// What it shows.
-    pub measured: Measured,
-    /// The relative error that rounding and noise explain.
+    /// Measured mean.
+    pub measured: Measurement,
+    /// Relative error that rounding and noise explain.
     pub allowed: f64,
-    /// True if points depend on it.
-    pub judged: bool,
+    /// True if failures cost points.
+    pub is_graded: bool,
 }
 
-impl Finding {
-    /// True if the picture is right within the tolerance and what noise explains, and all samples are radiance.
+impl ExtremeSceneResult {
+    /// True if the error is explained by rounding and noise, and all samples are radiance.
     pub fn is_right(&self) -> bool {
         self.measured.is_clean() && self.measured.error(self.truth).abs() <= self.allowed
     }
 }
 
-/// Renders the scenes of the table with a technique; those are left out that the technique cannot show.
+/// Measures the wanted extreme scenes that a technique can render.
 ///
 /// # Errors
-/// What is not the program's doing.
-pub fn findings(
+/// If the program gives no valid answer, or the grader itself fails.
+pub fn measure_all(
     process: &mut HostProcess,
-    extremes: &[Extreme],
+    extremes: &[ExtremeScene],
     technique: Technique,
-    effort: Effort,
+    effort: MinPaths,
     seed: u64,
     mut wanted: impl FnMut(&Answer) -> bool,
-) -> Result<Vec<Finding>, JobError> {
-    let mut findings: Vec<Finding> = Vec::new();
-    for Extreme { answer, description } in extremes {
+) -> Result<Vec<ExtremeSceneResult>, JobError> {
+    let mut findings: Vec<ExtremeSceneResult> = Vec::new();
+    for ExtremeScene { answer, description } in extremes {
         if answer.left_out.contains_key(&technique) || !wanted(answer) {
             continue;
         }
@@ -153,16 +154,16 @@ pub fn findings(
         let compared = |name: &String| findings.iter().find(|finding| finding.scene == *name);
         let other = answer.same_as.as_ref().and_then(compared).map(|finding| finding.measured.mean);
         let truth = answer.radiance.or(other).unwrap_or(measured.mean);
-        // The same scene elsewhere takes the same random numbers, so that noise explains nothing.
+        // A translated scene uses the same random numbers, so that noise explains no difference.
         let noise = if answer.radiance.is_some() { measured.noise(truth) } else { 0.0 };
-        findings.push(Finding {
+        findings.push(ExtremeSceneResult {
             scene: answer.scene.clone(),
             settings,
             size: answer.size,
             truth,
             measured,
             allowed: answer.tolerance + noise,
-            judged: answer.judged,
+            is_graded: answer.is_graded,
         });
     }
     Ok(findings)
@@ -173,7 +174,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn means_of_any_magnitude_have_an_error() {
+    fn means_of_any_magnitude_have_a_standard_error() {
         for scale in [1e-300, 1e-30, 1.0, 1e30, 1e300] {
             let (mean, error) = mean_and_error(&[scale, 3.0 * scale]);
             assert!((mean / scale - 2.0).abs() < 1e-12 && (error / scale - 1.0).abs() < 1e-12, "{scale}");
@@ -184,15 +185,15 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_mean_and_a_sample_that_is_no_radiance_are_not_right() {
-        let finding = |mean, allowed, negative| Finding {
+    fn wrong_means_and_samples_that_are_not_radiance_fail() {
+        let finding = |mean, allowed, negative| ExtremeSceneResult {
             scene: String::new(),
             settings: Settings { technique: Technique::Nee, max_bounces: 1 },
             size: [1, 1],
             truth: 1e-20,
-            measured: Measured { mean, negative, ..Measured::default() },
+            measured: Measurement { mean, negative, ..Measurement::default() },
             allowed,
-            judged: true,
+            is_graded: true,
         };
         assert!(finding(1.0005e-20, 1e-3, 0).is_right());
         assert!(!finding(1.01e-20, 1e-3, 0).is_right());

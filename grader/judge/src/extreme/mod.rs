@@ -1,4 +1,4 @@
-//! Scenes at the ends of what numbers can be, and what a program makes of them.
+//! Extreme scenes, near the limits of single precision, and measuring programs in them.
 
 pub mod answers;
 pub mod measure;

@@ -1,4 +1,4 @@
-//! What a grade rests on beside the framework: scenes, references, the rubric.
+//! The inputs of a grade: scenes, references and the rubric.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -12,37 +12,40 @@ use harness::workspace::Workspace;
 use verdict::check::Visibility;
 use verdict::error::{Error, Result};
 
-/// The scenes that checks need, with their references; where there is no solution, without those that only staff have.
+/// Loads the scenes of the selected checks with their references. In a checkout without the solution, staff-only scenes
+/// may be missing.
 pub(super) fn load_scenes(
     workspace: &Workspace,
     selected: &Selected<'_>,
 ) -> Result<BTreeMap<String, SceneWithReference>> {
     let mut scenes = BTreeMap::new();
     let is_staff = workspace.solution_file().is_file();
-    let is_elsewhere = |scene: &str| {
+    let is_missing = |scene: &str| {
         !is_staff
             && Visibility::of_scene(scene) == Visibility::StaffOnly
             && !workspace.scene_file(scene).exists()
     };
     for (_, spec) in selected.iter().filter(|(_, spec)| spec.check.needs_scene()) {
-        if !(scenes.contains_key(&spec.scene) || is_elsewhere(&spec.scene)) {
+        if !(scenes.contains_key(&spec.scene) || is_missing(&spec.scene)) {
             scenes.insert(spec.scene.clone(), load_scene(workspace, &spec.scene)?);
         }
     }
     Ok(scenes)
 }
 
-/// Loads a scene of the collection with its reference.
+/// Loads a scene of `scenes/` with its reference.
+///
+/// # Errors
+/// If either cannot be read or the reference is stale.
 pub fn load_scene(workspace: &Workspace, name: &str) -> Result<SceneWithReference> {
     let description = arty::scene::file::load(&workspace.scene_file(name))?.description;
     let reference = reference::load(&workspace.reference_file(name), name, &description)?;
     Ok(SceneWithReference { scene: Scene::new(&description), description, reference })
 }
 
-/// BLAKE3 of a text file.
+/// BLAKE3 of a text file, independent of its line endings, in hexadecimal.
 pub(super) fn hash_of_file(path: &Path) -> Result<String> {
     let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
-    // Line by line, so that another system's line ends make no difference.
     let mut hasher = blake3::Hasher::new();
     text.lines().for_each(|line| {
         hasher.update(line.as_bytes()).update(b"\n");
@@ -50,7 +53,7 @@ pub(super) fn hash_of_file(path: &Path) -> Result<String> {
     Ok(hasher.finalize().to_hex().to_string())
 }
 
-/// BLAKE3 of all that is known of the scenes.
+/// BLAKE3 of all references, in hexadecimal.
 pub(super) fn hash_of_references(scenes: &BTreeMap<String, SceneWithReference>) -> String {
     let mut hasher = blake3::Hasher::new();
     for (name, scene) in scenes {

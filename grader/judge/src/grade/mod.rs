@@ -1,4 +1,4 @@
-//! Grading one submission, from its file to its report.
+//! Grading a submission: from its source to its report.
 
 mod inputs;
 mod points;
@@ -34,25 +34,25 @@ use select::{Selected, select};
 
 pub use inputs::load_scene;
 
-/// What a grade is told beside the submission.
+/// Options of a grade.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// The assignment's name.
+    /// Name or folder of the assignment.
     pub assignment: String,
-    /// The seed of all random numbers.
+    /// Seed of all random numbers.
     pub seed: u64,
-    /// Threads for the submission.
+    /// Number of threads of the submission.
     pub threads: usize,
-    /// Checks to run: by the name of the check, its kind, its scene, its technique or its task. All if empty.
+    /// Checks to run, by identity, kind, scene, technique or task. All checks if empty.
     pub only: Vec<String>,
-    /// What the submission may use up.
+    /// Resource limits of the submission.
     pub limits: Limits,
 }
 
-/// Grades a submission. `on_check` is told of each check as it ends.
+/// Grades a submission. `on_check` is called after each check.
 ///
 /// # Errors
-/// What is not the submission's doing.
+/// If the grader itself fails.
 pub fn grade(
     workspace: &Workspace,
     submission: &Submission,
@@ -62,7 +62,7 @@ pub fn grade(
     Grader::new(workspace, options)?.grade(submission, on_check)
 }
 
-/// All that is the same for every submission of an assignment, made ready once. It can grade several at a time.
+/// Grades submissions of one assignment. It prepares what they share once, and may grade several in parallel.
 pub struct Grader {
     options: Options,
     rubric: Rubric,
@@ -71,25 +71,27 @@ pub struct Grader {
     framework_time: f64,
     oracle: Option<Oracle>,
     workspace: Workspace,
-    /// What means nothing in its scenes, whatever the submission.
+    /// Kinds of checks that do not apply to the scenes.
     skipped: Vec<SkippedCheck>,
     provenance: Provenance,
-    /// The mistakes that are known.
+    /// The known mistakes.
     catalogue: Catalogue,
+    /// Text of the assignment's starting file; empty if it has none.
+    starter: String,
 }
 
 impl Grader {
     /// Loads rubric, scenes and references, and builds the framework.
     ///
     /// # Errors
-    /// If any of these is not as it should be.
+    /// If any of these is invalid.
     pub fn new(workspace: &Workspace, options: &Options) -> Result<Self> {
         let rubric_file = workspace.assignment(&options.assignment).join("rubric.yml");
         let rubric = Rubric::load(&rubric_file)?;
         plan::validate(&rubric)?;
         let selected = select(&rubric, &options.only)?;
         let start = Instant::now();
-        // The framework is mostly there already, and to find it does not take both cores.
+        // In parallel: finding that the framework is up to date uses one core.
         let (scenes, framework) = rayon::join(
             || load_scenes(workspace, &selected),
             || {
@@ -123,73 +125,74 @@ impl Grader {
             skipped,
             provenance,
             catalogue: Catalogue::load(&workspace.assignment(&options.assignment))?,
+            starter: workspace.starter(&options.assignment)?,
         })
     }
 
-    /// What it was told.
+    /// The options.
     pub fn options(&self) -> &Options {
         &self.options
     }
 
-    /// What submissions are linked against.
+    /// The framework that submissions are linked against.
     pub fn framework(&self) -> &Framework {
         &self.framework
     }
 
-    /// The solution, if the checkout has it.
+    /// The solution; `None` if the checkout does not have it.
     pub fn oracle(&self) -> Option<&Oracle> {
         self.oracle.as_ref()
     }
 
-    /// What the assignment asks for.
+    /// The rubric of the assignment.
     pub fn rubric(&self) -> &Rubric {
         &self.rubric
     }
 
-    /// How many checks a grade runs at most.
+    /// Number of selected checks, of which a grade may skip some.
     pub fn planned(&self) -> usize {
         select(&self.rubric, &self.options.only).map_or(0, |selected| selected.len())
     }
 
-    /// What all grades rest on.
+    /// Versions and seeds that all grades depend on.
     pub fn provenance(&self) -> &Provenance {
         &self.provenance
     }
 
-    /// Grades a submission. `on_check` is told of each check as it ends.
+    /// Grades a submission. `on_check` is called after each check.
     ///
     /// # Errors
-    /// What is not the submission's doing.
+    /// If the grader itself fails.
     pub fn grade(
         &self,
         submission: &Submission,
         on_check: impl FnMut(&CheckResult) + Send,
     ) -> Result<Report> {
-        Ok(self.judge(submission, None, on_check)?.0)
+        Ok(self.grade_or_refuse(submission, None, on_check)?.0)
     }
 
-    /// The same, and the program that was graded, unless it does not compile.
+    /// Grades a submission and also returns its program; `None` if it does not compile.
     ///
     /// # Errors
-    /// What is not the submission's doing.
+    /// If the grader itself fails.
     pub fn grade_and_keep(
         &self,
         submission: &Submission,
         on_check: impl FnMut(&CheckResult) + Send,
     ) -> Result<(Report, Option<SubmissionProgram>)> {
-        self.judge(submission, None, on_check)
+        self.grade_or_refuse(submission, None, on_check)
     }
 
-    /// The report on a submission in which there is nothing to grade: no points, and why.
+    /// The report on a submission that intake has refused: no points, with the reason.
     ///
     /// # Errors
-    /// None that a submission could cause.
+    /// If the grader itself fails.
     pub fn refuse(&self, path: &Path, refusal: &IntakeFinding) -> Result<Report> {
         let nothing = Submission { path: path.to_owned(), source: String::new() };
-        Ok(self.judge(&nothing, Some(refusal), |_| {})?.0)
+        Ok(self.grade_or_refuse(&nothing, Some(refusal), |_| {})?.0)
     }
 
-    fn judge(
+    fn grade_or_refuse(
         &self,
         submission: &Submission,
         refusal: Option<&IntakeFinding>,
@@ -206,16 +209,16 @@ impl Grader {
         let build = start.elapsed().as_secs_f64();
 
         let run_start = Instant::now();
-        let mut ran = self.before_running(submission);
+        let mut results = self.initial_results(submission);
         if let Ok(program) = &built {
-            self.run(program, &selected, &mut ran, on_check)?;
+            self.run(program, &selected, &mut results, on_check)?;
         }
         let run = run_start.elapsed().as_secs_f64();
         let (program, build_failure) = match built {
             Ok(program) => (Some(program), None),
             Err(failure) => (None, Some(failure)),
         };
-        let tasks = self.score(&selected, &ran, build_failure.is_some(), refusal.is_some());
+        let tasks = self.score(&selected, &results, build_failure.is_some(), refusal.is_some());
         let total = self.framework_time + start.elapsed().as_secs_f64();
         let mut report = Report {
             schema: SCHEMA.to_owned(),
@@ -230,38 +233,38 @@ impl Grader {
             assignment: self.rubric.assignment.clone(),
             points: self.sum(&tasks),
             tasks,
-            numerics: numerics_of(&ran.checks),
-            checks: ran.checks,
-            skipped: ran.skipped,
+            numerics: numerics_of(&results.checks),
+            checks: results.checks,
+            skipped: results.skipped,
             diagnosis: Vec::new(),
             cost: Cost { framework: self.framework_time, build, run, total },
-            sandbox: ran.sandbox,
+            sandbox: results.sandbox,
             provenance: self.provenance.clone(),
             convergence: None,
             images: Vec::new(),
         };
-        report.diagnosis = self.catalogue.diagnose(&report, &submission.source);
+        report.diagnosis = self.catalogue.diagnose(&report, &submission.source, &self.starter);
         Ok((report, program))
     }
 
-    /// What is known of a submission before it runs.
-    fn before_running(&self, submission: &Submission) -> Ran {
+    /// The results before a submission is run.
+    fn initial_results(&self, submission: &Submission) -> RunResults {
         let possible = Machine::here().layers();
         let sandbox = Sandbox::new(possible, possible, scan(&submission.source));
-        Ran { checks: Vec::new(), skipped: self.skipped.clone(), sandbox }
+        RunResults { checks: Vec::new(), skipped: self.skipped.clone(), sandbox }
     }
 
-    /// Runs the checks that mean something for a submission.
+    /// Runs the selected checks that apply to their scenes.
     fn run(
         &self,
         program: &SubmissionProgram,
         selected: &Selected<'_>,
-        ran: &mut Ran,
+        results: &mut RunResults,
         on_check: impl FnMut(&CheckResult) + Send,
     ) -> Result<()> {
         let host = HostProcess::start(program, self.options.threads)?.layers();
-        ran.sandbox = Sandbox::new(program.layers, host, std::mem::take(&mut ran.sandbox.findings));
-        trial::require(&ran.sandbox, self.options.limits.min_level)?;
+        results.sandbox = Sandbox::new(program.layers, host, std::mem::take(&mut results.sandbox.findings));
+        trial::require(&results.sandbox, self.options.limits.min_level)?;
         let context = GradeContext {
             program,
             oracle: self.oracle.as_ref(),
@@ -276,7 +279,7 @@ impl Grader {
         meaningful.retain(|(_, spec)| {
             let why = plan::why_skipped(spec, self.scenes.get(&spec.scene), self.oracle.is_some());
             let is_meaningful = why.is_none();
-            ran.skipped.extend(why.map(|why| SkippedCheck {
+            results.skipped.extend(why.map(|why| SkippedCheck {
                 kind: spec.check,
                 technique: spec.technique,
                 scene: spec.scene.clone(),
@@ -285,14 +288,14 @@ impl Grader {
             }));
             is_meaningful
         });
-        ran.checks = run::run(&context, &meaningful, on_check)?;
+        results.checks = run::run(&context, &meaningful, on_check)?;
         Ok(())
     }
 
     fn score(
         &self,
         selected: &Selected<'_>,
-        ran: &Ran,
+        results: &RunResults,
         not_compiled: bool,
         refused: bool,
     ) -> Vec<TaskResult> {
@@ -301,14 +304,15 @@ impl Grader {
             (false, true) => Some(TaskState::NotCompiled),
             (false, false) => None,
         };
-        let score = |task| points::score(task, selected, &ran.checks, &ran.skipped, nothing_ran.clone());
-        points::require(&self.rubric, self.rubric.tasks.iter().map(score).collect(), &ran.checks)
+        let score =
+            |task| points::score(task, selected, &results.checks, &results.skipped, nothing_ran.clone());
+        points::require(&self.rubric, self.rubric.tasks.iter().map(score).collect(), &results.checks)
     }
 
     fn sum(&self, tasks: &[TaskResult]) -> Points {
         let total = |manual: bool| {
             let tasks = self.rubric.tasks.iter().filter(|task| task.manual == manual);
-            // The library's own sum of nothing is −0.
+            // `Iterator::sum` of an empty iterator is −0.
             tasks.fold(0.0, |sum, task| sum + task.points)
         };
         Points {
@@ -322,8 +326,8 @@ impl Grader {
     }
 }
 
-/// What running a submission has come to.
-struct Ran {
+/// The results of running a submission.
+struct RunResults {
     checks: Vec<CheckResult>,
     skipped: Vec<SkippedCheck>,
     sandbox: Sandbox,

@@ -1,4 +1,4 @@
-//! From verdicts to points.
+//! Computing points from verdicts.
 
 use verdict::check::{CheckId, CheckResult, Verdict};
 use verdict::report::{SkippedCheck, TaskResult, TaskState};
@@ -7,7 +7,7 @@ use verdict::rubric::{CheckSpec, Rubric, Task};
 use super::select::Selected;
 use crate::plan;
 
-/// The points of one task. `nothing_ran` says why no check was run, if none was.
+/// The points of one task. `nothing_ran` is the reason if no check of the grade was run.
 pub(super) fn score(
     task: &Task,
     selected: &Selected<'_>,
@@ -40,7 +40,7 @@ pub(super) fn score(
     for spec in &task.checks {
         let id = spec.id();
         if skipped.iter().any(|skipped| skipped.check.as_ref() == Some(&id)) {
-            // A check that means nothing here is worth nothing; one that only staff can run keeps its worth.
+            // A check that does not apply is worth nothing. One that only staff can run keeps its points open.
             if plan::needs_staff(spec) {
                 total += spec.weight;
                 staff_only += spec.weight;
@@ -55,7 +55,7 @@ pub(super) fn score(
             missing.push((id, spec.required));
         }
     }
-    // Half points are the finest that a tutor would give.
+    // Points are rounded to halves, as a tutor would give them.
     let points_of = |weight: f64| {
         let share = if total > 0.0 { weight / total } else { 0.0 };
         (task.points * share * 2.0).round() / 2.0
@@ -74,7 +74,7 @@ pub(super) fn score(
     result
 }
 
-/// Takes the points of tasks that rest on other tasks' required checks where those are missing.
+/// Removes the points of tasks that require another task of which a required check did not pass.
 pub(super) fn require(
     rubric: &Rubric,
     mut tasks: Vec<TaskResult>,
@@ -92,14 +92,14 @@ pub(super) fn require(
     tasks
 }
 
-/// The check that has already cost a task all of its points, if one has: a required one of its own, or of a task that it
-/// requires.
+/// The required check that has already cost a task all of its points: its own, or one of a task that it requires.
+/// `None` if there is none.
 pub(super) fn lost_to<'a>(task: &Task, results: &'a [CheckResult]) -> Option<&'a CheckId> {
     let all = std::iter::once(&task.id).chain(&task.requires);
     all.filter_map(|task| missing_required(task, results)).next()
 }
 
-/// A required check of a task that was run and did not pass.
+/// The first required check of a task that was run and did not pass.
 fn missing_required<'a>(task: &str, results: &'a [CheckResult]) -> Option<&'a CheckId> {
     let missing =
         |check: &&CheckResult| check.task == task && check.required && check.verdict != Verdict::Pass;
@@ -112,7 +112,7 @@ mod tests {
     use verdict::sample;
 
     #[test]
-    fn a_missing_required_check_costs_a_task_and_those_that_require_it_everything() {
+    fn a_failed_required_check_costs_its_task_and_dependent_tasks_all_points() {
         let yaml = "
 assignment: a
 title: a

@@ -1,55 +1,55 @@
-//! Running the checks of a grade, several side by side.
+//! Running the checks of a grade in parallel.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use super::points::lost_to;
 use super::select::Selected;
-use crate::checks::{GradeContext, give_up, skip};
+use crate::checks::{GradeContext, out_of_time, skipped};
 use verdict::check::{CheckResult, Reason};
 use verdict::error::{Error, Result};
 
-/// Checks at a time. Each one's process has all the threads of the grade, so that the last to end leaves no core idle;
-/// more at a time would only wait for each other.
-const MOST_AT_A_TIME: usize = 4;
+/// Maximum number of checks in parallel. Each has all threads of the grade, so that the last one leaves no core idle;
+/// more would only compete with each other.
+const MAX_CONCURRENT: usize = 4;
 
-/// Runs checks, and gives their results in the order in which they were named. `on_check` is told of each as it ends.
+/// Runs checks and returns their results in the given order. `on_check` is called after each check.
 ///
-/// Required checks come first. A task that has lost all of its points by them gets only short looks from then on: there
-/// is nothing to be won any more, and what is wrong mostly shows at once. Checks that go further than known scenes are
-/// skipped there. Which tasks those are depends on verdicts alone, not on how many checks run at a time.
+/// Required checks run first. If one has cost a task all of its points, the other checks of the task cannot affect the
+/// points: they get short looks, which show most mistakes, and checks that test generalisation are skipped. Which tasks
+/// these are depends only on verdicts, not on the number of checks in parallel.
 ///
 /// # Errors
-/// What is not the submission's doing.
+/// If the grader itself fails.
 pub(super) fn run(
     context: &GradeContext<'_>,
     selected: &Selected<'_>,
     on_check: impl FnMut(&CheckResult) + Send,
 ) -> Result<Vec<CheckResult>> {
     let on_check = Mutex::new(on_check);
-    let (patience, shortened) = (Patience::default(), context.with_short_looks());
+    let (timeouts, shortened) = (TimeoutTracker::default(), context.with_short_looks());
     let run_one = |(number, (task, spec)), required: &[CheckResult]| {
         let result = match lost_to(task, required) {
-            _ if patience.is_over() => give_up(task, spec),
+            _ if timeouts.give_up() => out_of_time(task, spec),
             None => context.run(task, spec)?,
-            Some(lost_to) if spec.check.goes_further() => skip(task, spec, lost_to),
+            Some(lost_to) if spec.check.tests_generalisation() => skipped(task, spec, lost_to),
             Some(_) => CheckResult { short_look: true, ..shortened.run(task, spec)? },
         };
-        patience.hear_of(&result);
+        timeouts.record(&result);
         on_check.lock().unwrap_or_else(PoisonError::into_inner)(&result);
         Ok((number, result))
     };
     let numbered = selected.iter().copied().enumerate();
     let (first, others): (Vec<_>, Vec<_>) = numbered.partition(|(_, (_, spec))| spec.required);
-    let mut results = side_by_side(context.threads, &first, |&check| run_one(check, &[]))?;
+    let mut results = in_parallel(context.threads, &first, |&check| run_one(check, &[]))?;
     let required: Vec<CheckResult> = results.iter().map(|(_, result)| result.clone()).collect();
-    results.extend(side_by_side(context.threads, &others, |&check| run_one(check, &required))?);
+    results.extend(in_parallel(context.threads, &others, |&check| run_one(check, &required))?);
     results.sort_by_key(|(number, _)| *number);
     Ok(results.into_iter().map(|(_, result)| result).collect())
 }
 
-/// Does things one after the other on each of several threads, and stops early at an error.
-fn side_by_side<T: Sync, R: Send>(
+/// Maps `one` over `things` on several threads, in no particular order, and stops at the first error.
+fn in_parallel<T: Sync, R: Send>(
     threads: usize,
     things: &[T],
     one: impl Fn(&T) -> Result<R> + Sync,
@@ -68,7 +68,7 @@ fn side_by_side<T: Sync, R: Send>(
         }
     };
     std::thread::scope(|scope| {
-        for _ in 0..threads.clamp(1, MOST_AT_A_TIME).min(things.len()) {
+        for _ in 0..threads.clamp(1, MAX_CONCURRENT).min(things.len()) {
             scope.spawn(work);
         }
     });
@@ -78,16 +78,16 @@ fn side_by_side<T: Sync, R: Send>(
     }
 }
 
-/// How long a submission is waited for: one scene may be too much for it although it is right in others, but nobody waits
-/// for one that never ends.
+/// Counts timeouts. A submission may be too slow in one scene and right in others, but the grade gives up on one that
+/// never finishes.
 #[derive(Default)]
-struct Patience {
+struct TimeoutTracker {
     late: AtomicUsize,
     late_in_a_row: AtomicUsize,
 }
 
-impl Patience {
-    fn hear_of(&self, check: &CheckResult) {
+impl TimeoutTracker {
+    fn record(&self, check: &CheckResult) {
         if check.reason == Reason::Timeout {
             self.late.fetch_add(1, Ordering::Relaxed);
             self.late_in_a_row.fetch_add(1, Ordering::Relaxed);
@@ -96,8 +96,8 @@ impl Patience {
         }
     }
 
-    /// True if no more checks are worth their time.
-    fn is_over(&self) -> bool {
+    /// True after two timeouts in a row or four in total: the remaining checks are not run.
+    fn give_up(&self) -> bool {
         self.late_in_a_row.load(Ordering::Relaxed) >= 2 || self.late.load(Ordering::Relaxed) >= 4
     }
 }
@@ -108,14 +108,14 @@ mod tests {
     use verdict::sample;
 
     #[test]
-    fn all_is_done_once_and_an_error_ends_it() {
+    fn everything_is_done_once_and_an_error_stops_the_rest() {
         let things: Vec<usize> = (0..100).collect();
-        let mut done = side_by_side(3, &things, |&thing| Ok(2 * thing)).expect("nothing fails");
+        let mut done = in_parallel(3, &things, |&thing| Ok(2 * thing)).expect("nothing fails");
         done.sort_unstable();
         assert_eq!(done, (0..100).map(|thing| 2 * thing).collect::<Vec<_>>());
 
         let begun = AtomicUsize::new(0);
-        let failed = side_by_side(1, &things, |&thing| {
+        let failed = in_parallel(1, &things, |&thing| {
             begun.fetch_add(1, Ordering::Relaxed);
             if thing == 7 { Err(Error::Harness("seven".to_owned())) } else { Ok(()) }
         });
@@ -124,12 +124,12 @@ mod tests {
     }
 
     #[test]
-    fn nobody_waits_for_a_submission_that_never_ends() {
+    fn a_submission_that_never_finishes_is_given_up() {
         let check = |reason| CheckResult { reason, ..sample::report("").checks[0].clone() };
         let after = |reasons: &[Reason]| {
-            let patience = Patience::default();
-            reasons.iter().for_each(|&reason| patience.hear_of(&check(reason)));
-            patience.is_over()
+            let timeouts = TimeoutTracker::default();
+            reasons.iter().for_each(|&reason| timeouts.record(&check(reason)));
+            timeouts.give_up()
         };
         use Reason::{Bias, Timeout};
         assert!(!after(&[Timeout, Bias, Timeout, Bias, Timeout]));

@@ -1,12 +1,15 @@
-//! Which checks of a rubric a grade runs.
+//! Selecting the checks of a grade.
 
 use verdict::error::{Error, Result};
 use verdict::rubric::{CheckSpec, Rubric, Task};
 
-/// Checks with the tasks that they belong to, in the order of the rubric.
+/// Checks with their tasks, in the order of the rubric.
 pub(super) type Selected<'a> = Vec<(&'a Task, &'a CheckSpec)>;
 
-/// The checks that `--only` names, in the order of the rubric.
+/// The checks that `--only` selects, in the order of the rubric; all if it is empty.
+///
+/// # Errors
+/// If it selects none.
 pub(super) fn select<'a>(rubric: &'a Rubric, only: &[String]) -> Result<Selected<'a>> {
     let names = |task: &Task, spec: &CheckSpec| {
         [
@@ -24,7 +27,7 @@ pub(super) fn select<'a>(rubric: &'a Rubric, only: &[String]) -> Result<Selected
     if selected.is_empty() {
         let all: Vec<String> = rubric.checks().map(|(_, spec)| spec.id().to_string()).collect();
         return Err(Error::Input(format!(
-            "--only: no such check, scene or task; there are\n  {}",
+            "--only: no such check, kind, scene, technique or task; the checks are\n  {}",
             all.join("\n  ")
         )));
     }

@@ -1,9 +1,9 @@
-//! How far a picture is from a reference, in one number: for reports and plots.
+//! Image error metrics for reports and plots.
 //!
-//! Correctness is never judged by these: they do not tell noise from bias. Pictures are lists of pixels, row by row
-//! from the top, three linear channels each.
+//! They never decide about correctness, since they do not separate noise from bias. Pictures are lists of pixels with
+//! three linear channels, row by row from the top.
 //!
-//! The squared errors are the renderer's own ([`arty::image::error`]), since students plot them too.
+//! The squared errors are those of the renderer ([`arty::image::error`]), since students plot them, too.
 
 pub mod flip;
 

@@ -17,14 +17,14 @@ use harness::host_process::HostProcess;
 use verdict::error::{Error, Result};
 use verdict::rubric::{EmissionOnHit, View};
 
-/// How many samples a reference takes.
+/// Sample counts of a reference.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
-    /// Independent renderings, from whose spread the variance of the mean is worked out.
+    /// Number of batches, from which the variance of the mean is estimated.
     pub batches: u32,
-    /// Samples of each pixel in each of them.
+    /// Samples per pixel and batch.
     pub samples: u64,
-    /// Samples of each pixel for the moments of each technique.
+    /// Samples per pixel for the moments of each technique.
     pub single_samples: u32,
 }
 
@@ -34,11 +34,11 @@ impl Default for Effort {
     }
 }
 
-/// Which images of a scene are needed, and with which techniques they are compared.
+/// The views that a scene's reference needs, with the techniques whose moments it records.
 pub type Wanted = BTreeMap<View, Vec<Technique>>;
 
-/// Renders the reference of one scene with the solution: means by multiple importance sampling, which sees
-/// everything that any technique sees. Where lights that are hit emit nothing, by next event estimation.
+/// Renders the reference of one scene with the solution: by multiple importance sampling, or by next event estimation
+/// for views with `emission_on_hit: off`.
 pub fn make(
     solution: &SubmissionProgram,
     description: &SceneDescription,
@@ -59,15 +59,15 @@ pub fn make(
         let (mean, variance) = mean_and_variance(&batches);
         let count = f64::from(effort.batches);
         let variance_of_mean = variance.into_iter().map(|value| value.map(|value| value / count)).collect();
-        let mut light = ReferenceView { mean, variance_of_mean, techniques: BTreeMap::new() };
+        let mut images = ReferenceView { mean, variance_of_mean, techniques: BTreeMap::new() };
         for &technique in techniques {
             let settings = Settings { technique, max_bounces };
-            // Batches of one sample: each "mean" is a sample.
+            // In batches of one sample, each mean is a sample.
             let samples = renderer.render(SIZE, settings, effort.single_samples, 1, seed ^ 1)?;
-            light.techniques.insert(technique.name(), moments(&samples));
+            images.techniques.insert(technique.name(), moments(&samples));
         }
         provenance.insert(format!("{}.technique", layer_name(&view)), technique.to_string());
-        views.insert(view, light);
+        views.insert(view, images);
     }
     let samples = u64::from(effort.batches) * effort.samples;
     let of_all = [
@@ -80,7 +80,7 @@ pub fn make(
     Ok(Reference { scene_hash: description.hash(), views, provenance })
 }
 
-/// What a correct estimator gives in a scene without a reference: as the solution renders it now, `samples` times.
+/// Expected mean and noise in a scene without a reference, from `samples` samples per pixel of the solution.
 pub(super) fn live(
     solution: &SubmissionProgram,
     description: &SceneDescription,
@@ -95,16 +95,16 @@ pub(super) fn live(
     let count = samples.len() as f64;
     let variance_of_mean = variance.into_iter().map(|value| value.map(|value| value / count)).collect();
     let techniques = BTreeMap::from([(settings.technique.name(), moments(&samples))]);
-    let light = ReferenceView { mean, variance_of_mean, techniques };
-    light
+    let images = ReferenceView { mean, variance_of_mean, techniques };
+    images
         .expected(settings.technique)
         .ok_or_else(|| Error::Harness("the solution's own rendering has no moments".to_owned()))
 }
 
-/// Samples of each pixel that one batch of a picture takes at most.
+/// Maximum number of samples per pixel and batch of a display picture.
 const PICTURE_BATCH: u64 = 16;
 
-/// Renders a larger picture of a scene, to be looked at.
+/// Renders a larger picture of a scene for display.
 pub fn picture(
     program: &SubmissionProgram,
     description: &SceneDescription,
@@ -113,7 +113,7 @@ pub fn picture(
     samples: u64,
     seed: u64,
 ) -> Result<Image> {
-    // In batches, so that no job takes long.
+    // In batches, so that each job is short.
     let per_batch = (1..=PICTURE_BATCH).rev().find(|&size| samples.is_multiple_of(size)).unwrap_or(1);
     let batches = u32::try_from(samples / per_batch).unwrap_or(u32::MAX);
     let mut renderer = Renderer::start(program, description, rayon::current_num_threads())?;
@@ -123,7 +123,7 @@ pub fn picture(
     Ok(Image::from_pixels(width as usize, height as usize, pixels))
 }
 
-/// A trusted program with one scene loaded: its faults are the harness's.
+/// A trusted program with one loaded scene. Its faults are errors of the harness.
 struct Renderer {
     process: HostProcess,
     scene: u32,
@@ -137,7 +137,7 @@ impl Renderer {
         Ok(Self { process, scene, switches: Switches::default() })
     }
 
-    /// In pieces that stay well within the time that a job may take.
+    /// Renders batches, in jobs that stay well within the time limit.
     fn render(
         &mut self,
         (width, height): (u32, u32),
@@ -159,7 +159,7 @@ impl Renderer {
             if rendered.non_finite + rendered.negative > 0 {
                 let what = format!("{:?}", rendered.first_anomalies.first());
                 return Err(Error::Harness(format!(
-                    "the solution gave samples that are no radiance: {what}"
+                    "the solution returned samples that are not radiance: {what}"
                 )));
             }
             means.extend(rendered.batches);
@@ -168,7 +168,7 @@ impl Renderer {
     }
 }
 
-/// Mean over the batches and variance between them, of each pixel and channel.
+/// Mean over batches and variance between them, by pixel and channel.
 fn mean_and_variance(batches: &[Vec<[f32; 3]>]) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
     let count = batches.len() as f64;
     let per_value = |f: &dyn Fn(usize, usize) -> f64| -> Vec<[f64; 3]> {

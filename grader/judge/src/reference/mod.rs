@@ -1,10 +1,9 @@
-//! Reference images: what scenes look like, and how noisy correct estimators are in them.
+//! References: the expected image of a scene, and the noise of correct estimators.
 //!
-//! A reference is an EXR of the size that is judged. For each limit on the number of bounces (and once more
-//! for next event estimation alone, where that is checked) it holds, per pixel
-//! and channel, the mean and the variance of that mean, and for each technique the relative deviation and the
-//! skewness of one sample. Its metadata say which scene it shows, by the hash of the scene's content: a reference
-//! whose scene has changed is refused.
+//! A reference is an EXR file of [`SIZE`]. For each view (maximum number of bounces, and `emission_on_hit`) it holds
+//! the mean and the variance of that mean by pixel and channel, and for each technique the relative standard deviation
+//! and the skewness of one sample. Its metadata record the hash of the scene's content: the reference of a scene that
+//! has changed is refused.
 
 mod file;
 mod make;
@@ -21,32 +20,32 @@ pub use file::{load, save};
 pub use make::{Effort, Wanted, make, picture};
 pub use oracle::Oracle;
 
-/// Width and height of references for judging, in pixels.
+/// Width and height in pixels of references and of the pictures compared with them.
 pub const SIZE: (u32, u32) = (16, 16);
 
-/// What is known of one scene.
+/// The reference of one scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reference {
-    /// The hash of the scene's content.
+    /// Hash of the scene's content.
     pub scene_hash: String,
-    /// By which light is shown.
+    /// The views.
     pub views: BTreeMap<View, ReferenceView>,
-    /// How it was made, for the reader of the file.
+    /// How it was rendered, for readers of the file.
     pub provenance: BTreeMap<String, String>,
 }
 
-/// The image that light makes which is scattered up to a number of times. All lists are row by row from the top.
+/// The reference of one view. All lists are row by row from the top.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReferenceView {
     /// Mean of each pixel.
     pub mean: Vec<[f64; 3]>,
     /// Variance of that mean.
     pub variance_of_mean: Vec<[f64; 3]>,
-    /// How a correct estimator is distributed, by technique.
+    /// Moments of one sample of a correct estimator, by name of the technique.
     pub techniques: BTreeMap<&'static str, Moments>,
 }
 
-/// How single samples are distributed.
+/// Moments of single samples.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Moments {
     /// Standard deviation of one sample, relative to the mean.
@@ -56,7 +55,7 @@ pub struct Moments {
 }
 
 impl ReferenceView {
-    /// What a correct estimator of this technique gives; `None` if the reference does not have the technique.
+    /// Expected mean and noise of a correct estimator with this technique; `None` if the reference lacks the technique.
     pub fn expected(&self, technique: Technique) -> Option<Expected> {
         let moments = self.techniques.get(technique.name())?;
         let per_value = |f: &dyn Fn(usize, usize) -> f64| -> Vec<[f64; 3]> {

@@ -1,4 +1,4 @@
-//! The solution, asked about scenes that have no reference. What it said once is not rendered again.
+//! The oracle: the solution as a source of expectations for scenes without a reference, with a cache.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -16,21 +16,23 @@ use verdict::error::{Error, Result};
 use verdict::output;
 use verdict::submission::Submission;
 
-/// The solution of this checkout. It is compiled only once it is needed, and not again while it is the same.
+/// The solution of a checkout, compiled on first use.
 ///
-/// Program and answers are kept where Cargo builds the framework, under the hash of all that they depend on.
+/// The compiled program and all expectations are cached in Cargo's target folder of the framework, under the hash of
+/// everything they depend on.
 #[derive(Debug)]
 pub struct Oracle {
     submission: Submission,
     framework: Framework,
-    /// Over the framework, the solution's source, how it is compiled, and how its samples become an answer.
+    /// Cache key: hash of the framework, the solution's source, the way it is compiled, and the code that renders with
+    /// it.
     hash: blake3::Hash,
     folder: PathBuf,
     program: Mutex<Option<Arc<SubmissionProgram>>>,
 }
 
 impl Oracle {
-    /// The solution of a checkout; `None` if it does not have it.
+    /// The solution of a checkout; `None` if the checkout does not have it.
     ///
     /// # Errors
     /// If it cannot be read.
@@ -54,7 +56,7 @@ impl Oracle {
         }))
     }
 
-    /// The solution as a program, for commands that are nothing without it.
+    /// The program of the solution, for commands that need it.
     ///
     /// # Errors
     /// If the checkout does not have it, or it does not compile.
@@ -66,12 +68,12 @@ impl Oracle {
             .program()
     }
 
-    /// Over all that programs and answers depend on.
+    /// Hash of everything that the program and the expectations depend on.
     pub fn hash(&self) -> blake3::Hash {
         self.hash
     }
 
-    /// The solution as a program, built like any submission, now or earlier.
+    /// The program of the solution, from the cache or compiled like any submission.
     ///
     /// # Errors
     /// If it does not compile.
@@ -82,7 +84,7 @@ impl Oracle {
         }
         let (limits, file) = (Limits::default(), self.folder.join(format!("{}.program", self.hash)));
         let earlier = read(&file).and_then(|executable| SubmissionProgram::again(&executable, &limits).ok());
-        // It may have come here with a cache, from a machine with another C library.
+        // The cache may come from a machine with another C library, on which the program does not start.
         let compiled = match earlier
             .filter(|program| HostProcess::start(program, 1).is_ok_and(|process| process.fault().is_none()))
         {
@@ -92,7 +94,7 @@ impl Oracle {
                 let compiled = compile(&self.framework, source, &limits)?.map_err(|failure| {
                     Error::file(path, format!("does not compile:\n{}", failure.messages))
                 })?;
-                // Whoever cannot keep it compiles it again.
+                // If the cache cannot be written, the program is compiled again next time.
                 let _ = self.keep(&file, &compiled);
                 compiled
             }
@@ -100,7 +102,7 @@ impl Oracle {
         Ok(Arc::clone(program.insert(Arc::new(compiled))))
     }
 
-    /// What a correct estimator gives in a scene, with `samples` samples of each pixel.
+    /// Expected mean and noise in a scene, from `samples` samples per pixel.
     ///
     /// # Errors
     /// If the solution fails.
@@ -119,12 +121,12 @@ impl Oracle {
         }
         let answer = live(&*self.program()?, scene, settings, samples, seed, threads)?;
         let bytes = postcard::to_stdvec(&answer).map_err(|error| Error::file(&file, error))?;
-        // Whoever cannot keep it asks again.
+        // If the cache cannot be written, it is rendered again next time.
         let _ = self.write(&file, &bytes);
         Ok(answer)
     }
 
-    /// Keeps the program, in place of earlier ones.
+    /// Caches the program and removes earlier ones.
     fn keep(&self, file: &Path, program: &SubmissionProgram) -> Result<()> {
         let trouble = |error| Error::output(&self.folder, error);
         let executable =
@@ -138,14 +140,14 @@ impl Oracle {
         self.write(file, &executable)
     }
 
-    /// Writes something down for [`read`].
+    /// Writes a cache entry for [`read`].
     fn write(&self, file: &Path, bytes: &[u8]) -> Result<()> {
         output::create_folder(&self.folder)?;
         output::write_bytes(file, [blake3::hash(bytes).as_bytes(), bytes].concat())
     }
 }
 
-/// What was written down; `None` if it is not there, or not whole.
+/// Reads a cache entry; `None` if it does not exist or is damaged.
 fn read(file: &Path) -> Option<Vec<u8>> {
     let mut bytes = std::fs::read(file).ok()?;
     let (hash, rest) = bytes.split_at_checked(blake3::OUT_LEN)?;

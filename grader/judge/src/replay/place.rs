@@ -1,4 +1,4 @@
-//! The scene of a path that is replayed.
+//! Loading the scene of a replay target.
 
 use arty::scene::SceneDescription;
 use glam::DVec3;
@@ -8,7 +8,7 @@ use verdict::replay::ReplayTarget;
 
 use crate::scenes::{changed, room};
 
-/// Content of the scene that a path is in, as large and as bright as the target says.
+/// The scene of a replay target, scaled and brightened as it says.
 ///
 /// # Errors
 /// If there is no such scene, or it cannot be read.
@@ -17,9 +17,9 @@ pub fn load(workspace: &Workspace, target: &ReplayTarget) -> Result<SceneDescrip
     let scene = if name == ReplayTarget::ROOM {
         room()
     } else {
-        // A name, not a way out of the folder.
+        // The name must not lead out of the folder.
         if name.contains(['\\', ':']) || name.split('/').any(|part| matches!(part, "" | "." | "..")) {
-            return Err(Error::Input(format!("--scene: `{name}` is a path; the name of a scene is wanted")));
+            return Err(Error::Input(format!("--scene: `{name}` is a path: give the name of a scene")));
         }
         let files = [workspace.scene_file(name), workspace.extreme_scene_file(name)];
         let file = files.iter().find(|file| file.is_file()).ok_or_else(|| {

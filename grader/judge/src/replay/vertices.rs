@@ -1,16 +1,16 @@
-//! What a path carries at each of its vertices, worked out from the calls of the solution.
+//! Reconstructing the vertices of a path from the calls of the solution.
 
 use arty::integrator::Technique;
 use arty::scene::SceneDescription;
-use verdict::replay::{FoundLight, Path, Step, Vertex};
+use verdict::replay::{FoundLight, RecordedCall, ReplayedPath, Vertex};
 
-/// Reads the vertices off the calls of the solution, of which it is known in which order they come. Densities and
-/// weights are worked out in double precision from what the framework gave.
-pub fn vertices(path: &Path, technique: Technique, description: &SceneDescription) -> Vec<Vertex> {
+/// The vertices of a path of the solution, whose order of calls is known. Densities and weights are computed in double
+/// precision from the recorded values.
+pub fn vertices(path: &ReplayedPath, technique: Technique, description: &SceneDescription) -> Vec<Vertex> {
     let lights = light_count(description);
     let mut vertices: Vec<Vertex> = Vec::new();
     let mut throughput = 1.0;
-    // Where the last bounce was and the density of its direction; none at the camera and after a delta bounce.
+    // Position of the last bounce and density of its direction; `None` at the camera and after a delta bounce.
     let mut last: Option<([f64; 3], f64)> = None;
     let mut here = [0.0; 3];
     let mut steps = path.calls.iter().peekable();
@@ -29,7 +29,7 @@ pub fn vertices(path: &Path, technique: Technique, description: &SceneDescriptio
                 }
             }
             "Light::sample_direct" => {
-                let rest: Vec<&Step> = steps
+                let rest: Vec<&RecordedCall> = steps
                     .clone()
                     .take_while(|step| !matches!(step.function.as_str(), "Bsdf::sample" | "Scene::intersect"))
                     .collect();
@@ -65,7 +65,7 @@ fn squared_distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 fn found_by_hit(
-    step: &Step,
+    step: &RecordedCall,
     technique: Technique,
     last: Option<([f64; 3], f64)>,
     here: [f64; 3],
@@ -88,10 +88,10 @@ fn found_by_hit(
     Some(FoundLight { density, other_density, weight, contribution: throughput * radiance * weight })
 }
 
-/// `rest` are the calls after the light sample that belong to it.
+/// Light found by a light sample. `rest` are the later calls that belong to it.
 fn found_by_sample(
-    step: &Step,
-    rest: &[&Step],
+    step: &RecordedCall,
+    rest: &[&RecordedCall],
     here: [f64; 3],
     lights: f64,
     throughput: f64,

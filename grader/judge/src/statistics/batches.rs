@@ -1,20 +1,20 @@
-//! Independent renderings of one image, growing from look to look.
+//! Batches: independent renderings of one image, which grow from look to look.
 
 use super::regions::Region;
 
-/// For each batch the mean of its samples in each pixel, per channel.
+/// The means of all batches, by pixel and channel.
 #[derive(Clone, Debug, Default)]
 pub struct Batches {
     means: Vec<Vec<[f64; 3]>>,
-    /// Samples of each pixel in each batch.
+    /// Samples per pixel and batch.
     samples: u64,
 }
 
 impl Batches {
-    /// Adds `samples` more samples of each pixel to each batch, given as their means.
+    /// Adds `samples` samples per pixel to each batch, given as their means.
     ///
     /// # Panics
-    /// If the number of batches or pixels is not that of the samples before.
+    /// If the number of batches or pixels differs from that of earlier samples.
     pub fn extend(&mut self, means: &[Vec<[f32; 3]>], samples: u64) {
         if self.samples == 0 {
             self.means = means.iter().map(|batch| vec![[0.0; 3]; batch.len()]).collect();
@@ -32,23 +32,23 @@ impl Batches {
         self.samples += samples;
     }
 
-    /// The number of batches.
+    /// Number of batches.
     pub fn count(&self) -> usize {
         self.means.len()
     }
 
-    /// The number of pixels of each.
+    /// Number of pixels of each batch.
     pub fn pixels(&self) -> usize {
         self.means.first().map_or(0, Vec::len)
     }
 
-    /// Samples of each pixel over all batches.
+    /// Samples per pixel over all batches.
     pub fn samples_per_pixel(&self) -> u64 {
         self.samples * self.means.len() as u64
     }
 
-    /// The variance of one sample of a pixel's channel, as the batches show it: that of their means, times the number
-    /// of samples in each.
+    /// Estimated variance of one sample of a pixel's channel: the variance of the batches' means times the number of
+    /// samples per batch.
     pub fn variance(&self, pixel: usize, channel: usize) -> f64 {
         let count = self.means.len() as f64;
         let mean = self.means.iter().map(|batch| batch[pixel][channel]).sum::<f64>() / count;
@@ -56,7 +56,7 @@ impl Batches {
         squares / (count - 1.0).max(1.0) * self.samples as f64
     }
 
-    /// For each batch the weighted sum over the pixels and channels of a region.
+    /// The contrast of each batch: its weighted sum over the pixels and channels of a region.
     pub fn contrast<'a>(&'a self, region: &'a Region) -> impl Iterator<Item = f64> + 'a {
         self.means.iter().map(move |batch| {
             let products = region.weights.iter().map(|(pixel, weights)| (batch[*pixel], weights));
@@ -64,7 +64,7 @@ impl Batches {
         })
     }
 
-    /// For each batch the mean of a pixel's channel.
+    /// The mean of a pixel's channel in each batch.
     pub fn values(&self, pixel: usize, channel: usize) -> impl Iterator<Item = f64> + '_ {
         self.means.iter().map(move |batch| batch[pixel][channel])
     }
@@ -76,7 +76,7 @@ mod tests {
     use verdict::check::{Channel, RegionId, RegionKind};
 
     #[test]
-    fn samples_added_in_pieces_have_the_mean_of_the_whole() {
+    fn samples_added_in_parts_have_the_mean_of_all() {
         let mut batches = Batches::default();
         batches.extend(&[vec![[1.0, 2.0, 3.0]], vec![[0.0; 3]]], 1);
         batches.extend(&[vec![[5.0, 2.0, 0.0]], vec![[4.0; 3]]], 3);

@@ -1,4 +1,4 @@
-//! Is the mean of a region what it should be?
+//! Test for bias of the mean of a region.
 
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal, StudentsT};
@@ -6,27 +6,27 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, Normal, StudentsT};
 use super::batches::Batches;
 use super::regions::Region;
 
-/// What a region's mean should be, and how noisy a correct estimator is there. All lists are by pixel and channel.
+/// Expected means, and the noise of a correct estimator. All lists are by pixel and channel.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Expected {
-    /// The mean of each pixel.
+    /// Mean.
     pub mean: Vec<[f64; 3]>,
-    /// The standard deviation of that mean: what the reference itself does not know. Zero for an exact answer.
+    /// Standard error of `mean`: the noise of the reference. Zero for a closed form.
     pub error: Vec<[f64; 3]>,
-    /// The standard deviation of one sample of a correct estimator.
+    /// Standard deviation of one sample of a correct estimator.
     pub deviation: Vec<[f64; 3]>,
-    /// The cube root of the third central moment of one sample of a correct estimator; zero where that is negative.
+    /// Cube root of the third central moment of one sample of a correct estimator; zero if that is negative.
     pub asymmetry: Vec<[f64; 3]>,
 }
 
 impl Expected {
-    /// The same means with at least the noise that the batches show, over the whole image.
+    /// The same means, with the noise raised to that of the batches over the whole image.
     ///
-    /// A program can be right and yet much noisier than the one that made the reference. Where its rare bright samples
-    /// have not come yet, neither its own spread nor the reference's deviation tells of them; other pixels do. So if
-    /// its variance, summed over all pixels relative to m² + m̄² (the pixel's mean and that of the image, so that
-    /// neither bright nor dark pixels decide alone), is κ > 1 times the reference's, all distributions are taken to be
-    /// √κ times as wide.
+    /// A correct program may be much noisier than the one that rendered the reference. Where it has not drawn any of
+    /// its rare bright samples yet, neither its own variance nor that of the reference shows them, but other pixels
+    /// do. Let κ be its variance relative to the reference's, summed over all pixels relative to m² + m̄² (mean of the
+    /// pixel and mean of the image), so that neither bright nor dark pixels dominate. If κ > 1, all distributions are
+    /// widened by √κ.
     pub fn with_noise_of(&self, batches: &Batches) -> Self {
         let count = 3.0 * self.mean.len().max(1) as f64;
         let image_mean = self.mean.iter().flatten().sum::<f64>() / count;
@@ -45,7 +45,7 @@ impl Expected {
         Self { deviation: scaled(&self.deviation), asymmetry: scaled(&self.asymmetry), ..self.clone() }
     }
 
-    /// What the same estimator gives if all light is `factor` times as bright.
+    /// The expectation if all emission is scaled by `factor`.
     pub fn brightened(&self, factor: f64) -> Self {
         let scaled = |values: &[[f64; 3]]| values.iter().map(|value| value.map(|v| v * factor)).collect();
         Self {
@@ -57,38 +57,38 @@ impl Expected {
     }
 }
 
-/// Relative differences up to this are rounding errors of single precision, not bias.
+/// Relative difference that is attributed to rounding in single precision, not to bias.
 pub const TOLERATED: f64 = 1e-3;
 
-/// One region of one rendering, compared with what is expected there.
+/// The mean of one region of one rendering, compared with its expectation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Comparison {
-    /// Mean minus expected mean.
+    /// Measured mean minus expected mean.
     pub difference: f64,
-    /// Standard error of that difference.
+    /// Standard error of `difference`.
     pub standard_error: f64,
-    /// What the difference is relative to: the expected mean, with all weights taken as positive.
+    /// Scale of relative differences: the expected mean with the absolute values of all weights.
     pub scale: f64,
-    /// Degrees of freedom of the standard error.
-    pub freedom: f64,
+    /// Degrees of freedom of `standard_error`.
+    pub degrees_of_freedom: f64,
     /// False if a correct estimator is so skewed here that the mean of this many samples is not yet close to normal.
-    /// Then Chebyshev's inequality takes the place of Student's distribution: it holds for any whose variance is
-    /// known.
+    /// Then Chebyshev's inequality replaces Student's distribution: it holds for any distribution with a known
+    /// variance.
     pub normal: bool,
 }
 
 impl Comparison {
-    /// Compares the batches with what is expected, over one region.
+    /// Compares the batches with the expectation over one region.
     ///
-    /// SE² = max(s²/B, σ²/N) + v: the spread between batches, but not less than what a correct estimator has, since
-    /// a heavy tail that no batch has met yet makes s far too small; and what the reference does not know.
+    /// SE² = max(s²/B, σ²/N) + v: the variance between batches, but at least that of a correct estimator, since s is
+    /// far too small if no batch has sampled a heavy tail yet; plus the variance of the reference.
     pub fn new(batches: &Batches, expected: &Expected, region: &Region) -> Self {
         let count = batches.count() as f64;
         let values: Vec<f64> = batches.contrast(region).collect();
         let mean = values.iter().sum::<f64>() / count;
         let spread = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
 
-        // Pixels are independent of each other, channels of one pixel are not: in the worst case they vary as one.
+        // Pixels are independent. The channels of one pixel are not: the worst case is full correlation.
         let samples = batches.samples_per_pixel() as f64;
         let (mut expected_mean, mut scale) = (0.0, 0.0);
         let (mut reference_variance, mut floor, mut third_moment) = (0.0, 0.0, 0.0);
@@ -105,39 +105,39 @@ impl Comparison {
             difference: mean - expected_mean,
             standard_error: ((spread / count).max(floor / samples) + reference_variance).sqrt(),
             scale,
-            freedom: (count - 1.0).max(1.0),
-            // N ≥ 411 γ² makes the tails right at the level of the confirmation.
+            degrees_of_freedom: (count - 1.0).max(1.0),
+            // With N ≥ 411 γ² the tails are accurate at the confirmation level.
             normal: samples >= 411.0 * skewness * skewness,
         }
     }
 
-    /// |difference| beyond rounding, in standard errors. Zero if there is no difference beyond rounding.
+    /// |difference| in excess of rounding, in standard errors; zero if there is no such excess.
     pub fn t(&self) -> f64 {
         let excess = (self.difference.abs() - TOLERATED * self.scale).max(0.0);
         if excess == 0.0 { 0.0 } else { excess / self.standard_error }
     }
 
-    /// The probability of a `t` at least this large, in either direction, for a correct estimator.
+    /// Two-sided p-value: the probability of a `t` at least this large for a correct estimator.
     pub fn p_value(&self) -> f64 {
         let t = self.t();
-        if self.normal { 2.0 * upper_tail(t, self.freedom) } else { (1.0 / (t * t)).min(1.0) }
+        if self.normal { 2.0 * upper_tail(t, self.degrees_of_freedom) } else { (1.0 / (t * t)).min(1.0) }
     }
 
-    /// The same, in the direction of the sign of `direction` only.
+    /// One-sided p-value, in the direction of the sign of `direction`.
     pub fn one_sided_p_value(&self, direction: f64) -> f64 {
         let t = self.t();
         if self.difference * direction <= 0.0 {
             1.0
         } else if self.normal {
-            upper_tail(t, self.freedom)
+            upper_tail(t, self.degrees_of_freedom)
         } else {
             1.0 / (1.0 + t * t)
         }
     }
 
-    /// How many standard errors are exceeded with probability `tail`, in one direction.
+    /// The number of standard errors that is exceeded with probability `tail` in one direction.
     fn quantile(&self, tail: f64) -> f64 {
-        if self.normal { quantile(1.0 - tail, self.freedom) } else { (1.0 / tail - 1.0).sqrt() }
+        if self.normal { quantile(1.0 - tail, self.degrees_of_freedom) } else { (1.0 / tail - 1.0).sqrt() }
     }
 
     /// Difference relative to [`scale`](Self::scale).
@@ -145,49 +145,49 @@ impl Comparison {
         ratio(self.difference, self.scale)
     }
 
-    /// Half the width of the interval that holds the relative difference with the given confidence.
+    /// Half the width of the confidence interval of the relative difference.
     pub fn relative_margin(&self, confidence: f64) -> f64 {
         ratio(self.quantile(0.5 * (1.0 - confidence)) * self.standard_error, self.scale)
     }
 
-    /// The smallest relative bias that a test at level `alpha` finds with probability 0.99.
+    /// The smallest relative bias that a test at level `alpha` detects with probability 0.99.
     pub fn detectable(&self, alpha: f64) -> f64 {
         let margin = self.quantile(0.5 * alpha) + self.quantile(0.01);
         TOLERATED + ratio(margin * self.standard_error, self.scale)
     }
 }
 
-/// 0/0 is no difference at all; x/0 is beyond any measure.
+/// `value / scale`, where 0/0 is 0.
 fn ratio(value: f64, scale: f64) -> f64 {
     if value == 0.0 { 0.0 } else { value / scale }
 }
 
 /// P(T ≥ t) of Student's distribution.
-fn upper_tail(t: f64, freedom: f64) -> f64 {
+fn upper_tail(t: f64, degrees_of_freedom: f64) -> f64 {
     if t.is_infinite() {
-        return 0.0; // no spread at all, and yet a difference
+        return 0.0; // A difference without any variance.
     }
-    StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |distribution| distribution.sf(t))
+    StudentsT::new(0.0, 1.0, degrees_of_freedom).map_or(1.0, |distribution| distribution.sf(t))
 }
 
-fn quantile(p: f64, freedom: f64) -> f64 {
-    StudentsT::new(0.0, 1.0, freedom).map_or(f64::INFINITY, |distribution| distribution.inverse_cdf(p))
+fn quantile(p: f64, degrees_of_freedom: f64) -> f64 {
+    StudentsT::new(0.0, 1.0, degrees_of_freedom)
+        .map_or(f64::INFINITY, |distribution| distribution.inverse_cdf(p))
 }
 
-/// The p-value of the smallest of `count` independent p-values (Šidák).
-pub fn smallest_of(count: usize, p: f64) -> f64 {
+/// The p-value of the minimum `p` of `count` independent p-values (Šidák).
+pub fn min_p_value(count: usize, p: f64) -> f64 {
     -(count as f64 * (-p.clamp(0.0, 1.0)).ln_1p()).exp_m1()
 }
 
-/// The p-value of many independent p-values at once: the sum of the squares of the normal deviates that are as
-/// unlikely (χ²). It sees what is a little wrong everywhere.
-pub fn all_of(p_values: &[f64]) -> f64 {
+/// The combined p-value of independent p-values: the sum of the squares of their normal deviates follows χ². It detects
+/// small errors everywhere.
+pub fn combined_p_value(p_values: &[f64]) -> f64 {
     let Ok(chi_squared) = ChiSquared::new(p_values.len() as f64) else { return 1.0 };
-    chi_squared.sf(p_values.iter().map(|&p| deviate(p).powi(2)).sum())
+    chi_squared.sf(p_values.iter().map(|&p| normal_deviate(p).powi(2)).sum())
 }
 
-/// The normal deviate, from 0 on, that is as unlikely in either direction. A p-value of 0 would be an infinite one; what
-/// is given then is far enough out.
-pub fn deviate(p: f64) -> f64 {
+/// The absolute normal deviate with this two-sided p-value. p-values below 1e-15 are clamped, so that it is finite.
+pub fn normal_deviate(p: f64) -> f64 {
     Normal::new(0.0, 1.0).map_or(0.0, |normal| normal.inverse_cdf(1.0 - 0.5 * p.clamp(1e-15, 1.0)))
 }

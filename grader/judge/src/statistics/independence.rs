@@ -1,4 +1,4 @@
-//! Are the pixels of an image independent of each other?
+//! Test for independence of the pixels of an image.
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -6,10 +6,10 @@ use verdict::check::PixelGroup;
 
 use super::batches::Batches;
 
-/// Gives the group of a pixel at (x, y).
+/// Maps a pixel (x, y) to its group.
 type GroupOf = fn(u32, u32) -> (u32, u32);
 
-/// Ways of summing pixels.
+/// Partitions of the pixels into groups.
 const GROUPS: [(PixelGroup, GroupOf); 4] = [
     (PixelGroup::Image, |_, _| (0, 0)),
     (PixelGroup::Row, |_, y| (0, y)),
@@ -17,22 +17,22 @@ const GROUPS: [(PixelGroup, GroupOf); 4] = [
     (PixelGroup::Tile, |x, y| (x / 4, y / 4)),
 ];
 
-/// What was found.
+/// The result of the test.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dependence {
-    /// How likely independent pixels look like this.
+    /// p-value under independence, corrected for the number of partitions.
     pub p_value: f64,
-    /// The variance of the pixels' sum, relative to what it should be.
+    /// Variance of the sums over groups, relative to that of independent pixels.
     pub excess: f64,
-    /// Which pixels vary together.
+    /// The partition with the strongest dependence.
     pub pixels: PixelGroup,
 }
 
-/// Looks for pixels that vary together.
+/// Tests whether pixels are correlated.
 ///
-/// Each pixel's batches are standardised; the sum r of n independent ones has the variance n, so that Σ r² / n over all
-/// B batches and g groups follows χ² with g (B − 1) degrees of freedom; pixels that share their random numbers give up
-/// to n times that. Groups are tried at several scales (Bonferroni).
+/// The batches of each pixel are standardised. The sum r of n independent pixels has the variance n, so that Σ r² / n
+/// over all B batches and g groups follows χ² with g (B − 1) degrees of freedom; pixels that share random numbers give
+/// up to n times that. Several partitions are tested (Bonferroni).
 pub fn dependence(batches: &Batches, width: u32) -> Dependence {
     let count = batches.count();
     let pixels = batches.pixels();
@@ -53,17 +53,18 @@ pub fn dependence(batches: &Batches, width: u32) -> Dependence {
             .clone()
             .map(|(members, sums)| sums.iter().map(|sum| sum * sum).sum::<f64>() / f64::from(*members))
             .sum();
-        let freedom = larger.count() as f64 * (count as f64 - 1.0);
-        let Ok(distribution) = ChiSquared::new(freedom) else { continue };
+        let degrees_of_freedom = larger.count() as f64 * (count as f64 - 1.0);
+        let Ok(distribution) = ChiSquared::new(degrees_of_freedom) else { continue };
         let p_value = (GROUPS.len() as f64 * distribution.sf(sum)).min(1.0);
         if p_value < worst.p_value {
-            worst = Dependence { p_value, excess: sum / freedom, pixels: group };
+            worst = Dependence { p_value, excess: sum / degrees_of_freedom, pixels: group };
         }
     }
     worst
 }
 
-/// The pixel's luminance in each batch, less its mean and divided by its deviation; none if it does not vary.
+/// The sum of the pixel's channels in each batch, minus its mean and divided by its standard deviation; `None` if it
+/// does not vary.
 fn standardised(batches: &Batches, pixel: usize) -> Option<Vec<f64>> {
     let count = batches.count() as f64;
     let mut sums = vec![0.0; batches.count()];
@@ -73,7 +74,7 @@ fn standardised(batches: &Batches, pixel: usize) -> Option<Vec<f64>> {
     let mean = sums.iter().sum::<f64>() / count;
     let squares: f64 = sums.iter().map(|value| (value - mean).powi(2)).sum();
     let deviation = (squares / (count - 1.0)).sqrt();
-    // Rounding alone is no noise.
+    // Variation up to this is rounding, not noise.
     (deviation > 1e-6 * mean.abs()).then(|| sums.iter().map(|value| (value - mean) / deviation).collect())
 }
 
@@ -82,7 +83,7 @@ mod tests {
     use super::*;
     use arty::sampler::Sampler;
 
-    /// Exponential samples; `stream` says which random numbers a pixel takes.
+    /// Tests exponential samples. `stream` maps a pixel to its stream of random numbers.
     fn seen(seed: u64, stream: impl Fn(u32) -> u32) -> Dependence {
         let value = |batch: u32, pixel: u32| {
             let u = Sampler::new(seed, (batch, stream(pixel)), 0).next_1d();
@@ -103,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn shared_random_numbers_are_seen() {
+    fn shared_random_numbers_are_detected() {
         for (name, stream) in [
             ("all", (|_| 0) as fn(u32) -> u32),
             ("pairs in a row", |pixel| pixel / 2),

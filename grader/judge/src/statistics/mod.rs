@@ -1,15 +1,15 @@
-//! Telling a biased estimator from a noisy one.
+//! Statistical tests that distinguish a biased estimator from a noisy one.
 //!
-//! The unit of observation is a **batch**: an independent rendering with its own seed. [`batches`] gathers them,
-//! [`regions`] pools pixels into tiles at several scales, [`bias`] asks of each tile whether its mean is what it
-//! should be, and [`sequential`] decides when enough has been seen.
+//! The unit of observation is a **batch**: an independent rendering with its own seed. [`batches`] collects them,
+//! [`regions`] pools pixels into tiles at several scales, [`bias`] tests the mean of a region, and [`sequential`]
+//! requests more samples until the result is clear.
 
 pub mod batches;
 pub mod bias;
-#[cfg(test)]
-mod extremes;
 pub mod independence;
 pub mod regions;
 pub mod regression;
 pub mod sequential;
+#[cfg(test)]
+mod tests;
 pub mod variance;

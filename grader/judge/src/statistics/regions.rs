@@ -1,36 +1,36 @@
-//! Tiles of an image at several scales.
+//! Regions of an image at several scales.
 //!
-//! A mistake can darken everything by a percent or one corner by half. Small tiles see the one badly and the other
-//! well, large tiles the other way round; so both are looked at.
+//! A mistake can darken the whole image by a percent, or one corner by half. Large tiles detect the former, small
+//! tiles the latter.
 
 use verdict::check::{Channel, RegionId, RegionKind};
 
 use super::bias::Expected;
 
-/// Rec. 709 weights: a fourth channel beside red, green and blue.
+/// Rec. 709 weights of luminance, which is tested like a fourth channel.
 const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
-/// The luminance of a linear colour.
+/// Luminance of a linear colour.
 pub fn luminance(values: &[f64; 3]) -> f64 {
     (0..3).map(|channel| LUMINANCE[channel] * values[channel]).sum()
 }
 
-/// The levels of the pyramid: 1, 4, 16 and 64 tiles.
+/// Number of levels of the pyramid, which have 1, 4, 16 and 64 tiles.
 pub const LEVELS: u32 = 4;
 
 /// A weighted sum over the pixels and channels of an image, such as the mean of a tile.
 #[derive(Clone, Debug)]
 pub struct Region {
-    /// What it is.
+    /// Identity of the region in reports.
     pub id: RegionId,
-    /// 2^level tiles stand beside each other.
+    /// Level of the pyramid: the image has 2^level tiles along each side.
     pub level: u32,
-    /// The pixels that take part, and the weights of their channels.
+    /// Indices of the pixels, and weights of their channels.
     pub weights: Vec<(usize, [f64; 3])>,
 }
 
-/// All tiles of all levels, each as red, green, blue and luminance. Levels with tiles smaller than a pixel are
-/// left out.
+/// All tiles of all levels, each for red, green, blue and luminance. Levels with tiles smaller than a pixel are
+/// omitted.
 pub fn pyramid(width: u32, height: u32) -> Vec<Region> {
     let mut regions = Vec::new();
     for level in 0..LEVELS {
@@ -56,12 +56,12 @@ pub fn pyramid(width: u32, height: u32) -> Vec<Region> {
     regions
 }
 
-/// The whole image, with each pixel weighted by how well a correct estimator knows it.
+/// The whole image, with pixels weighted by the inverse of a correct estimator's relative variance.
 ///
-/// A plain mean is as noisy as the worst of its pixels, such as those on the edge of a visible light. The best
-/// estimate of a relative error that all pixels share gives pixel p, with the mean m and the relative variance r² of
-/// one sample, a weight on its ratio to m of 1/r². Here it is 1/(r² + r̄²), with the median r̄², so that no pixel
-/// that hardly has any noise outweighs all others.
+/// A plain mean is as noisy as its worst pixels, such as those on the edge of a visible light. The optimal estimate of
+/// a relative error common to all pixels weights the ratio of a pixel to its mean m by 1/r², where r² is the relative
+/// variance of one sample. Here the weight is 1/(r² + r̄²) with the median r̄², so that no pixel with hardly any noise
+/// dominates.
 pub fn weighted_image(expected: &Expected) -> Region {
     let means: Vec<f64> = expected.mean.iter().map(luminance).collect();
     let relative_variance = |(deviation, &mean): (&[f64; 3], &f64)| {
@@ -74,7 +74,7 @@ pub fn weighted_image(expected: &Expected) -> Region {
     let median = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0).max(1e-12);
     let weight = |(&r2, &mean): (&f64, &f64)| if mean > 0.0 { 1.0 / (mean * (r2 + median)) } else { 0.0 };
     let raw: Vec<f64> = relative_variances.iter().zip(&means).map(weight).collect();
-    // As for a tile, the weights of a sum that has the mean of a grey image of that brightness.
+    // Normalised, as for a tile: the weighted sum of a constant grey image is its luminance relative to the mean.
     let total: f64 = raw.iter().sum::<f64>().max(f64::MIN_POSITIVE);
     let weights = raw
         .iter()
@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn an_image_of_one_pixel_is_one_tile() {
+    fn an_image_of_one_pixel_has_one_tile() {
         assert_eq!(pyramid(1, 1).len(), 4);
     }
 }

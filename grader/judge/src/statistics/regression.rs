@@ -1,22 +1,22 @@
-//! Least squares.
+//! Linear least squares.
 
-/// The coefficients c₀, c₁, … that make y ≈ c₀ + c₁x₁ + … + c_Kx_K fit best.
+/// Coefficients of the least-squares fit y ≈ c₀ + c₁x₁ + … + c_Kx_K.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fit<const K: usize> {
-    /// c₀
+    /// c₀.
     pub intercept: f64,
-    /// c₁ to c_K
+    /// c₁ to c_K.
     pub slopes: [f64; K],
-    /// The root of the mean squared residual.
+    /// Root mean square of the residuals.
     pub residual: f64,
 }
 
-/// Fits a plane through points (x, y); `None` if they are too few or do not determine it.
+/// Fits a hyperplane to points (x, y); `None` if there are too few points or they do not determine it.
 pub fn fit<const K: usize>(points: &[([f64; K], f64)]) -> Option<Fit<K>> {
     if points.len() < 2 * (K + 1) {
         return None;
     }
-    // The normal equations, with the right-hand side as last column.
+    // The normal equations, with the right-hand side as the last column.
     let row = |point: &([f64; K], f64)| -> Vec<f64> {
         std::iter::once(1.0).chain(point.0).chain(std::iter::once(point.1)).collect()
     };
@@ -65,7 +65,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_plane_is_found_and_too_little_to_find_one_is_none() {
+    fn a_plane_is_fitted_and_degenerate_points_are_refused() {
         let points: Vec<([f64; 2], f64)> = (0..10)
             .map(|i| [f64::from(i), f64::from(i * i % 7)])
             .map(|x| (x, 3.0 - 2.0 * x[0] + 0.5 * x[1]))

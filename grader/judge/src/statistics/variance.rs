@@ -1,30 +1,29 @@
-//! How noisy is an estimator, compared with another?
+//! Comparison of the variances of two estimators.
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::batches::Batches;
 
-/// The ratio of two variances of one sample, over a whole image.
+/// The ratio of the variances of one sample of two estimators, over a whole image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VarianceRatio {
-    /// ln of the ratio.
+    /// Natural logarithm of the ratio.
     pub log: f64,
-    /// Its standard error.
+    /// Standard error of `log`.
     pub error: f64,
-    /// Degrees of freedom of that error.
-    pub freedom: f64,
+    /// Degrees of freedom of `error`.
+    pub degrees_of_freedom: f64,
 }
 
 impl VarianceRatio {
-    /// How much noisier the batches are than an estimator with the given standard deviations of one sample. `mean` is
-    /// what both should give. All lists are by pixel and channel.
+    /// Compares the batches with an estimator whose samples have the given standard deviations. `mean` is the
+    /// expectation of both. All lists are by pixel and channel.
     ///
-    /// The variance of an image is the sum of those of its pixels, relative to m² + m̄² (the pixel's mean and that of
-    /// the image), so that neither bright nor dark pixels decide alone. The error of its logarithm is that of the
-    /// jackknife that leaves out one batch after the other: it holds whatever the distribution, where the F test needs
-    /// normal samples.
+    /// The variance of an image is the sum over its pixels relative to m² + m̄² (mean of the pixel and mean of the
+    /// image), so that neither bright nor dark pixels dominate. The standard error of its logarithm comes from the
+    /// jackknife over batches, which holds for any distribution; the F test would need normal samples.
     ///
-    /// `None` if either does not vary at all, or if there are fewer than three batches.
+    /// `None` if either has no variance, or if there are fewer than three batches.
     pub fn new(batches: &Batches, mean: &[[f64; 3]], deviation: &[[f64; 3]]) -> Option<Self> {
         let count = batches.count();
         if count < 3 {
@@ -44,7 +43,7 @@ impl VarianceRatio {
                 let squares: f64 = batches.values(pixel, channel).map(|value| (value - seen).powi(2)).sum();
                 all += squares / scale;
                 for (without, value) in without.iter_mut().zip(batches.values(pixel, channel)) {
-                    // The sum of squares about the mean of those that are left.
+                    // The sum of squares about the mean of the remaining batches.
                     let left = squares - (value - seen).powi(2) * count as f64 / (count as f64 - 1.0);
                     *without += left.max(0.0) / scale;
                 }
@@ -57,7 +56,11 @@ impl VarianceRatio {
         let centre = logs.iter().sum::<f64>() / count as f64;
         let spread: f64 = logs.iter().map(|log| (log - centre).powi(2)).sum();
         let error = (spread * (count as f64 - 1.0) / count as f64).sqrt();
-        (log.is_finite() && error.is_finite()).then_some(Self { log, error, freedom: count as f64 - 1.0 })
+        (log.is_finite() && error.is_finite()).then_some(Self {
+            log,
+            error,
+            degrees_of_freedom: count as f64 - 1.0,
+        })
     }
 
     /// The ratio.
@@ -65,9 +68,9 @@ impl VarianceRatio {
         self.log.exp()
     }
 
-    /// What the ratio exceeds, but for an error of the first kind with probability `alpha`.
+    /// Lower confidence bound of the ratio, which exceeds the true ratio with probability `alpha`.
     pub fn at_least(&self, alpha: f64) -> f64 {
-        let quantile = StudentsT::new(0.0, 1.0, self.freedom)
+        let quantile = StudentsT::new(0.0, 1.0, self.degrees_of_freedom)
             .map_or(f64::INFINITY, |distribution| distribution.inverse_cdf(1.0 - alpha));
         (self.log - quantile * self.error).exp()
     }
@@ -78,7 +81,7 @@ mod tests {
     use super::*;
     use arty::sampler::Sampler;
 
-    /// Exponential samples, `factor` times as wide as those of the reference.
+    /// The ratio for exponential samples whose standard deviation is `factor` times that of the reference.
     fn ratio(factor: f64, seed: u64) -> VarianceRatio {
         let value = |batch: u32, pixel: u32| {
             let u = f64::from(Sampler::new(seed, (batch, pixel), 0).next_1d());
@@ -92,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn the_interval_holds_the_ratio() {
+    fn the_confidence_bound_holds() {
         // Of 2 × 40 bounds at a level of 1e-3 more than two are wrong once in 10,000 sets of seeds.
         for factor in [1.0, 3.0] {
             let wrong = (0..40).filter(|&seed| ratio(factor, seed).at_least(1e-3) > factor * factor).count();
@@ -103,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_vary_has_no_ratio() {
+    fn constant_samples_have_no_ratio() {
         let mut batches = Batches::default();
         batches.extend(&vec![vec![[1.0; 3]; 4]; 8], 1);
         assert_eq!(VarianceRatio::new(&batches, &[[1.0; 3]; 4], &[[1.0; 3]; 4]), None);

@@ -14,9 +14,9 @@ use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use super::{Counts, Pool};
 use judge::reference::SIZE;
-use judge::statistics::bias::smallest_of;
+use judge::statistics::bias::min_p_value;
 use judge::statistics::regions::{Region, luminance, pyramid};
-use judge::statistics::sequential::Demand;
+use judge::statistics::sequential::SampleRequest;
 use verdict::check::RegionKind;
 
 /// A test of means.
@@ -129,7 +129,7 @@ impl Fixed<'_> {
         let draw = |pool: &Pool, bias: f64, part: u64| {
             let seed = batch_seed(self.seed ^ part, number);
             let seeds = (0..samples).map(|sample| batch_seed(seed, sample)).collect();
-            pool.draw(&Demand { seeds, first_sample: 0, samples: 1 }, bias)
+            pool.draw(&SampleRequest { seeds, first_sample: 0, samples: 1 }, bias)
         };
         let own = draw(self.pool, self.bias, 1);
         let smallest = if self.test == Test::Welch {
@@ -144,7 +144,7 @@ impl Fixed<'_> {
                     &moments(&right, |image| mean_of(tile, image)),
                 )
             };
-            smallest_of(tiles.len(), tiles.iter().map(p).fold(1.0, f64::min))
+            min_p_value(tiles.len(), tiles.iter().map(p).fold(1.0, f64::min))
         } else {
             let truth = self.truth.mean();
             let p = |pixel: usize| {
@@ -153,7 +153,7 @@ impl Fixed<'_> {
                     luminance(&truth[pixel]),
                 )
             };
-            smallest_of(truth.len(), (0..truth.len()).map(p).fold(1.0, f64::min))
+            min_p_value(truth.len(), (0..truth.len()).map(p).fold(1.0, f64::min))
         };
         smallest < self.level
     }
@@ -188,10 +188,10 @@ fn welch(a: &Moments, b: &Moments) -> f64 {
     if variance == 0.0 {
         return f64::from(u8::from(a.mean == b.mean));
     }
-    let freedom =
+    let degrees_of_freedom =
         variance.powi(2) / (a.variance.powi(2) / (a.count - 1.0) + b.variance.powi(2) / (b.count - 1.0));
     let t = (a.mean - b.mean).abs() / variance.sqrt();
-    StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |distribution| 2.0 * distribution.sf(t))
+    StudentsT::new(0.0, 1.0, degrees_of_freedom).map_or(1.0, |distribution| 2.0 * distribution.sf(t))
 }
 
 /// The two-sided p-value of a mean that should be `truth`.

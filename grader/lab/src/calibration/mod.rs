@@ -25,7 +25,7 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use fixed::Fixed;
 use judge::statistics::bias::Expected;
 use judge::statistics::regions::{Region, pyramid, weighted_image};
-use judge::statistics::sequential::{CONFIRMATION_LEVEL, LOOKS, Question, judge};
+use judge::statistics::sequential::{CONFIRMATION_LEVEL, LOOKS, SequentialTest, judge};
 
 /// Samples per pixel with which the false alarms of the tests of fixed size are counted.
 const FIXED_SAMPLES: u64 = 1024;
@@ -70,7 +70,7 @@ impl Trial<'_> {
         let mut regions: Vec<Region> = pyramid(width, height);
         regions.push(weighted_image(&expected));
         let one = |number: u64| {
-            let question = Question {
+            let test = SequentialTest {
                 expected: &expected,
                 regions: &regions,
                 decisive: regions.len() - 1,
@@ -80,7 +80,7 @@ impl Trial<'_> {
                 looks: LOOKS.len(),
             };
             let drawn =
-                judge(&question, |demand| Ok::<_, std::convert::Infallible>(self.pool.draw(demand, bias)));
+                judge(&test, |request| Ok::<_, std::convert::Infallible>(self.pool.draw(request, bias)));
             match drawn {
                 Ok(judgement) => Counts::of(judgement.decision, judgement.samples),
                 Err(never) => match never {},

@@ -11,7 +11,7 @@ use harness::build::SubmissionProgram;
 use harness::host_process::HostProcess;
 use harness::job::JobError;
 use judge::reference::SIZE;
-use judge::statistics::sequential::Demand;
+use judge::statistics::sequential::SampleRequest;
 
 /// Images of one sample each.
 pub struct Pool {
@@ -74,13 +74,13 @@ impl Pool {
     }
 
     /// The batches that are asked for, averaged over images drawn at random and multiplied by `1 + bias`.
-    pub fn draw(&self, demand: &Demand, bias: f64) -> Vec<Vec<[f32; 3]>> {
-        let scale = ((1.0 + bias) / demand.samples as f64) as f32;
+    pub fn draw(&self, request: &SampleRequest, bias: f64) -> Vec<Vec<[f32; 3]>> {
+        let scale = ((1.0 + bias) / request.samples as f64) as f32;
         let batch = |&seed: &u64| {
             // Continues the random numbers of the batch's earlier samples.
-            let mut random = Sampler::new(seed, (0, 0), demand.first_sample);
+            let mut random = Sampler::new(seed, (0, 0), request.first_sample);
             let mut sum = vec![[0.0f32; 3]; self.images.first().map_or(0, Vec::len)];
-            for _ in 0..demand.samples {
+            for _ in 0..request.samples {
                 let pick = (random.next_1d() * self.images.len() as f32) as usize;
                 let Some(image) = self.images.get(pick) else { continue };
                 for (sum, value) in sum.iter_mut().flatten().zip(image.iter().flatten()) {
@@ -90,7 +90,7 @@ impl Pool {
             sum.iter_mut().flatten().for_each(|value| *value *= scale);
             sum
         };
-        demand.seeds.iter().map(batch).collect()
+        request.seeds.iter().map(batch).collect()
     }
 }
 
@@ -103,8 +103,8 @@ mod tests {
         let images = (0..100).map(|i| vec![[i as f32, 2.0, 0.0]]).collect();
         let pool = Pool::of(images);
         assert_eq!(pool.mean(), [[49.5, 2.0, 0.0]]);
-        let demand = Demand { seeds: vec![1, 2], first_sample: 0, samples: 10_000 };
-        let drawn = pool.draw(&demand, 0.01);
+        let request = SampleRequest { seeds: vec![1, 2], first_sample: 0, samples: 10_000 };
+        let drawn = pool.draw(&request, 0.01);
         assert_ne!(drawn[0], drawn[1]);
         for batch in drawn {
             // Deviation of the mean: 0.29. Beyond 5 of them once in a million.

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use crate::limits::Measurement;
 use crate::output::{create_folder, print};
 use harness::workspace::Workspace;
-use judge::extreme::measure::Finding;
+use judge::extreme::measure::ExtremeSceneResult;
 use judge::reference::Oracle;
 use verdict::error::Result;
 
@@ -41,8 +41,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     } else {
         print(&measured.summary(COMMAND))?;
     }
-    let wrong: Vec<&Finding> = measured.findings.iter().filter(|finding| !finding.is_right()).collect();
-    let line = |finding: &&Finding| format!("wrong: {} with {}\n", finding.scene, finding.settings.technique);
+    let wrong: Vec<&ExtremeSceneResult> =
+        measured.findings.iter().filter(|finding| !finding.is_right()).collect();
+    let line = |finding: &&ExtremeSceneResult| {
+        format!("wrong: {} with {}\n", finding.scene, finding.settings.technique)
+    };
     let lines: String = wrong.iter().map(line).collect();
     let scenes = measured.findings.len();
     print(&format!("{lines}{} of {scenes} extreme scenes are right\n", scenes - wrong.len()))?;

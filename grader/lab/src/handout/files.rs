@@ -35,7 +35,7 @@ const EXCLUDED: [&str; 2] = ["scenes/hidden", "references/hidden"];
 const TEST_FILES: [&str; 2] = ["tests.rs", "test_scenes.rs"];
 
 /// Included files of the assignment. `course.yml` is not: it names students with extensions.
-const OF_ASSIGNMENT: [&str; 3] = ["sheet.md", "rubric.yml", "figures"];
+const OF_ASSIGNMENT: [&str; 4] = ["sheet.md", "rubric.yml", "starter.rs", "figures"];
 
 /// Files of the assignment that are included if they exist: causes of mistakes and their signatures.
 const OPTIONAL: [&str; 2] = ["causes.yml", "signatures.json"];

@@ -19,16 +19,16 @@ use harness::build::SubmissionProgram;
 use harness::host_process::HostProcess;
 use harness::workspace::Workspace;
 use judge::extreme::answers;
-use judge::extreme::measure::{Effort, Finding, findings};
+use judge::extreme::measure::{ExtremeSceneResult, MinPaths, measure_all};
 use sweep::Sweep;
 use sweeps::{Context, SWEEPS};
 use verdict::error::{Error, Result};
 
 /// Paths for each extreme scene.
-const SCENE_EFFORT: Effort = Effort(1 << 18);
+const SCENE_EFFORT: MinPaths = MinPaths(1 << 18);
 
 /// Paths for each point of a sweep.
-const SWEEP_EFFORT: Effort = Effort(1 << 14);
+const SWEEP_EFFORT: MinPaths = MinPaths(1 << 14);
 
 /// Name of the extreme scenes beside those of the sweeps.
 const SCENES: &str = "scenes";
@@ -42,7 +42,7 @@ pub struct Measurement<'a> {
 /// What was measured.
 pub struct Measured {
     /// The extreme scenes.
-    pub findings: Vec<Finding>,
+    pub findings: Vec<ExtremeSceneResult>,
     /// The sweeps.
     pub sweeps: Vec<Sweep>,
 }
@@ -104,13 +104,17 @@ impl Measured {
     }
 }
 
-fn extreme_scenes(workspace: &Workspace, program: &SubmissionProgram, seed: u64) -> Result<Vec<Finding>> {
+fn extreme_scenes(
+    workspace: &Workspace,
+    program: &SubmissionProgram,
+    seed: u64,
+) -> Result<Vec<ExtremeSceneResult>> {
     let extremes = answers::load(workspace)?;
     let mut all = Vec::new();
     for technique in Technique::ALL {
         eprintln!("extreme scenes, {technique} …");
         let mut process = HostProcess::start(program, rayon::current_num_threads())?;
-        let found = findings(&mut process, &extremes, technique, SCENE_EFFORT, seed, |_| true);
+        let found = measure_all(&mut process, &extremes, technique, SCENE_EFFORT, seed, |_| true);
         all.extend(found.map_err(|error| error.of_trusted("the solution"))?);
     }
     Ok(all)

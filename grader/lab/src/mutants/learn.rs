@@ -1,7 +1,7 @@
 //! Signatures of known mistakes, and how often they name the right cause.
 
 use super::{Kind, Ledger, Variant};
-use judge::diagnosis::{Catalogue, Confusion, Signatures, Vector};
+use judge::diagnosis::{Catalogue, Confusion, ObservationVector, Signatures};
 use verdict::check::CheckId;
 use verdict::error::{Error, Result};
 use verdict::rubric::Rubric;
@@ -26,7 +26,7 @@ pub fn learn(ledger: &Ledger, variants: &[Variant], seed: u64) -> Result<Learnt>
     let mut learnt = Learnt::default();
     for variant in variants {
         for record in ledger.records(variant) {
-            let vector = Vector::of(&ledger.report(record)?);
+            let vector = ObservationVector::of(&ledger.report(record)?);
             if record.seed != seed || variant.kind == Kind::Right {
                 learnt.cases.insert(&variant.id, record.seed, vector);
             } else {
@@ -51,7 +51,7 @@ impl Learnt {
     pub fn confusion(&self, catalogue: &Catalogue, rubric: &Rubric) -> (Confusion, Vec<(usize, Confusion)>) {
         let order: Vec<(String, CheckId)> =
             rubric.checks().map(|(task, spec)| (task.id.clone(), spec.id())).collect();
-        let diagnosed = |change: &dyn Fn(&Vector) -> Vector| {
+        let diagnosed = |change: &dyn Fn(&ObservationVector) -> ObservationVector| {
             let mut confusion = Confusion::default();
             for (variant, seed, vector) in self.cases.all() {
                 confusion.add(catalogue, variant, seed, &change(vector));
@@ -60,6 +60,6 @@ impl Learnt {
         };
         let early = EARLY_STOPS
             .map(|failures| (failures, diagnosed(&|vector| vector.stopped_after(&order, failures))));
-        (diagnosed(&Vector::clone), early.into())
+        (diagnosed(&ObservationVector::clone), early.into())
     }
 }

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
 use comfy_table::{Cell, CellAlignment, ContentArrangement, Table};
 
-use verdict::convergence::{Convergence, Curve, Estimate, LeftOut, Panel, Role};
+use verdict::convergence::{Convergence, Curve, Estimate, NotMeasured, Panel, Role};
 
 use crate::words::count;
 
@@ -47,8 +47,8 @@ pub fn print_sentences(convergence: &Convergence) {
 }
 
 /// What was not measured, and why.
-pub(crate) fn not_measured(entry: &LeftOut) -> String {
-    let LeftOut { program, scene, why } = entry;
+pub(crate) fn not_measured(entry: &NotMeasured) -> String {
+    let NotMeasured { program, scene, why } = entry;
     let place = if scene.is_empty() { String::new() } else { format!(" in {scene}") };
     format!("skipped: {program}{place}: {why}")
 }

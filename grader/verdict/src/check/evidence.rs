@@ -1,4 +1,4 @@
-//! What each kind of check measures.
+//! The measurements of each kind of check.
 
 use arty::integrator::Technique;
 use schemars::JsonSchema;
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::means::{FurnaceTest, MeanTest};
 use super::{CheckKind, StabilityTest, WeightTest};
 
-/// The measurements of one check: one variant a kind.
+/// The measurements of one check: one variant per kind.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 #[expect(missing_docs, reason = "the kinds of checks are documented at CheckKind")]
@@ -45,7 +45,7 @@ impl Evidence {
         }
     }
 
-    /// The picture whose mean decided, where one did.
+    /// The test of the picture whose mean decided; `None` for kinds that do not test means.
     pub fn mean_test(&self) -> Option<&MeanTest> {
         match self {
             Self::ClosedForm(test) | Self::MeanBias(test) => Some(test),
@@ -66,46 +66,46 @@ impl Evidence {
 /// The noise of a submission at equal sample counts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Noise {
-    /// Variance relative to that of each of the solution's techniques, its own first; empty if there is no noise at all.
+    /// Variance relative to each of the solution's techniques, its own first; empty if the submission has no noise.
     pub ratios: Vec<VarianceOf>,
-    /// The technique that it is as noisy as, where that is not its own.
+    /// The other technique that the submission is as noisy as, if any.
     #[schemars(with = "Option<crate::schema::TechniqueName>")]
     pub as_noisy_as: Option<Technique>,
-    /// True if it is noisier than the solution beyond chance.
+    /// True if the submission is significantly noisier than the solution.
     pub is_noisier: bool,
 }
 
-/// Variance of one sample of a submission, relative to that of a technique of the solution.
+/// Variance of one sample of a submission relative to a technique of the solution.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct VarianceOf {
     /// Technique of the solution.
     #[schemars(with = "crate::schema::TechniqueName")]
     pub technique: Technique,
-    /// Variance of the submission divided by that technique's.
+    /// Variance of the submission divided by that of the technique.
     pub ratio: f64,
 }
 
-/// Means in scenes that are drawn at random.
+/// Means in randomly generated scenes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct VariantTest {
-    /// The scene that decided, counted from 1.
+    /// Number of the scene that decided, counted from 1.
     pub scene: u32,
-    /// Scenes in the check.
+    /// Number of scenes in the check.
     pub scenes: u32,
-    /// What was found in it.
+    /// Test of its mean.
     pub test: MeanTest,
 }
 
-/// Means in scenes that are changed.
+/// Means in transformed scenes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ChangeTest {
     /// The change that decided.
     pub change: SceneChange,
-    /// Changes in the check.
+    /// Number of changes in the check.
     pub changes: u32,
-    /// True if the mean of the changed scene is wrong beyond chance.
+    /// True if the mean of the changed scene is significantly wrong.
     pub is_biased: bool,
-    /// What was found in the changed scene.
+    /// Test of the mean of the changed scene.
     pub test: MeanTest,
 }
 
@@ -117,39 +117,39 @@ pub enum SceneChange {
     Brighter,
     /// All lights a thousandth as bright.
     Dimmer,
-    /// All lengths 100 times as long.
+    /// The scene scaled by 100.
     Larger,
-    /// All lengths a hundredth as long.
+    /// The scene scaled by 1/100.
     Smaller,
     /// The scene rotated.
     Rotated,
-    /// The scene moved.
+    /// The scene translated.
     Moved,
     /// Triangles split into smaller ones.
     Tessellated,
     /// Each light split into two.
     LightsSplit,
-    /// Black objects beside the scene.
+    /// Black objects added beside the scene.
     BlackObjects,
-    /// The lights in two scenes, whose pictures are added up.
+    /// The lights divided between two scenes, whose pictures are summed.
     LightsApart,
 }
 
-/// How much each of three lights contributes.
+/// Contribution of each of three lights.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LightShares {
-    /// Contribution relative to the exact one, less 1; none if it is not finite.
+    /// Relative error of each contribution; `None` if it is not finite.
     pub excess: [Option<f64>; 3],
-    /// The first light that contributes too much or too little, counted from 0.
+    /// The first light whose contribution is wrong, counted from 0; `None` if all are right.
     pub wrong: Option<u32>,
 }
 
-/// Bounces of paths that nothing but `max_bounces` and Russian roulette should end.
+/// Lengths of paths that only `max_bounces` and Russian roulette may end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct PathLengths {
-    /// Maximum number of bounces that was asked for.
+    /// Requested maximum number of bounces.
     pub max_bounces: u32,
-    /// The number of bounces after which the submission ends all paths, if that is less.
+    /// Number of bounces after which the submission ends all paths, if smaller than requested.
     pub limit: Option<u32>,
 }
 
@@ -157,41 +157,41 @@ pub struct PathLengths {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RandomNumbers {
-    /// They are.
+    /// No dependence was found.
     Independent,
-    /// Different seeds gave the same image in these two batches.
+    /// These two batches have different seeds and the same image.
     SameImage([u32; 2]),
-    /// The same seed did not give the same image twice.
+    /// Rendering the same seed again gave another image.
     NotRepeatable,
-    /// Pixels share random numbers: the variance of sums over pixels, relative to that of independent pixels.
+    /// Pixels share random numbers.
     SharedByPixels {
-        /// That ratio.
+        /// Variance of sums over pixels, relative to that of independent pixels.
         excess: f64,
-        /// Pixels that vary together.
+        /// The pixels that are correlated.
         pixels: PixelGroup,
     },
 }
 
-/// Which pixels vary together.
+/// A group of pixels that may be correlated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PixelGroup {
     /// All pixels of the image.
     Image,
-    /// Pixels of a row.
+    /// The pixels of a row.
     Row,
-    /// Pixels of a column.
+    /// The pixels of a column.
     Column,
-    /// Pixels of a tile of 4 × 4.
+    /// The pixels of a 4 × 4 tile.
     Tile,
 }
 
-/// Rays that paths trace.
+/// Numbers of rays that paths trace.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RayCounts {
-    /// What is beyond the budget, if anything is.
+    /// A path that exceeds the budget, if any.
     pub excess: Option<TooManyRays>,
-    /// Lights in the room.
+    /// Number of lights in the room.
     pub lights: u32,
     /// True if shadow rays start at perfect mirrors, which cannot reflect a sampled light.
     pub shadow_rays_at_mirrors: bool,
@@ -199,15 +199,15 @@ pub struct RayCounts {
     pub shadow_rays_without_lights: bool,
 }
 
-/// A path that traces more rays than the sheet allows.
+/// Rays of a path that exceeds the budget of the sheet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct TooManyRays {
     /// Maximum number of bounces.
     pub bounces: u32,
-    /// Shadow rays of the path that traces most.
+    /// Maximum number of shadow rays per path.
     pub shadow_rays: u32,
-    /// Rays of the path that traces most, shadow rays included.
+    /// Maximum number of rays per path, including shadow rays.
     pub rays: u32,
-    /// How many are enough.
+    /// Maximum number of rays that the budget allows.
     pub allowed: u32,
 }

@@ -1,4 +1,4 @@
-//! What a submission can do instead of rendering: faults, and samples that are not radiance.
+//! Faults of a submission, and samples that are not radiance.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -6,19 +6,19 @@ use serde::{Deserialize, Serialize};
 use crate::number::Float;
 use crate::replay::ReplayTarget;
 
-/// What a submission did instead of answering.
+/// Why a submission gave no valid answer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Fault {
-    /// It panicked, with this message.
+    /// It panicked with this message.
     Panic(String),
-    /// It did not answer within so many seconds.
+    /// It did not answer within this many seconds.
     Timeout(f64),
-    /// It would not have answered in time: it did not finish the first part of a job within so many seconds.
+    /// It did not finish the first part of a job within this many seconds, so that the whole job would have timed out.
     TooSlow(f64),
-    /// Its process ended, with this status.
+    /// Its process died with this status.
     Crash(String),
-    /// Its answer was not what was asked for.
+    /// Its answer violated the protocol, as described.
     Malformed(String),
 }
 
@@ -36,28 +36,28 @@ impl std::fmt::Display for Fault {
     }
 }
 
-/// Samples that are not radiance.
+/// Samples that are not radiance (NaN, infinite or negative).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Numerics {
-    /// Samples that were NaN or infinite.
+    /// Number of samples that were NaN or infinite.
     pub non_finite: u64,
-    /// Samples that were finite but negative.
+    /// Number of samples that were finite but negative.
     pub negative: u64,
-    /// The first of either kind.
+    /// The first such sample.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub first: Option<Anomaly>,
 }
 
-/// One sample that is not radiance, or differs from what it should be.
+/// A sample that is not radiance, or has a wrong value.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Anomaly {
     /// Column and row of the pixel.
     pub pixel: [u32; 2],
-    /// Number of the sample.
+    /// Index of the sample.
     pub sample: u64,
-    /// Its value.
+    /// Value of the sample.
     pub value: [Float; 3],
-    /// How to follow its path again, where the scene can be named.
+    /// Target for replaying its path; `None` if its scene has no name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub replay: Option<ReplayTarget>,
 }

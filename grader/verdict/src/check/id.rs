@@ -9,41 +9,41 @@ use serde::{Deserialize, Serialize};
 use super::CheckKind;
 use crate::rubric::EmissionOnHit;
 
-/// What tells a check from all others of an assignment. Its text, `mean-bias/cornell_box/nee/8`, parses back to the
-/// same identity whatever the scene is called.
+/// Identifies a check within an assignment. Its text, such as `mean-bias/cornell_box/nee/8`, parses back to the same
+/// identity whatever the name of the scene.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct CheckId {
     /// Kind of check.
     pub kind: CheckKind,
-    /// Name of the scene; [`SCRIPTED`](crate::rubric::SCRIPTED) for checks that make their own.
+    /// Name of the scene; [`SCRIPTED`](crate::rubric::SCRIPTED) for checks that build their own.
     pub scene: String,
     /// Technique of the submission.
     pub technique: Technique,
     /// Maximum number of bounces.
     pub max_bounces: u32,
-    /// Whether lights that a path hits emit anything.
+    /// Whether `Hit::emission` returns emission.
     pub emission_on_hit: EmissionOnHit,
 }
 
-/// Who may see that a check exists, and how it ended.
+/// Who may see a check and its result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Visibility {
     /// Everybody.
     Public,
-    /// Staff only: its points count, and students learn how many such checks there are and how many passed.
+    /// Staff only: its points count, and students are told only how many such checks there are and how many passed.
     StaffOnly,
 }
 
-/// Folder, below `scenes/`, of scenes that students do not get.
+/// Folder below `scenes/` of the scenes that are not handed out.
 const STAFF_SCENES: &str = "hidden/";
 
-/// Last part of the text of a check in which lights that are hit emit nothing.
+/// Last part of the text of a check with `emission_on_hit: off`.
 const EMISSION_OFF: &str = "emission-off";
 
 impl CheckId {
-    /// Staff only for scenes that are drawn anew for each grade, and for those that are not handed out.
+    /// Staff only for randomly generated scenes and for scenes that are not handed out.
     pub fn visibility(&self) -> Visibility {
         Visibility::of(self.kind, &self.scene)
     }
@@ -75,7 +75,7 @@ impl fmt::Display for CheckId {
 impl FromStr for CheckId {
     type Err = String;
 
-    /// Reads the text from both ends: whatever is left in the middle is the scene, slashes included.
+    /// Parses the text from both ends: the remaining middle is the scene, which may contain slashes.
     fn from_str(text: &str) -> Result<Self, String> {
         let wrong = || format!("`{text}` is not the name of a check, such as mean-bias/cornell_box/nee/8");
         let (rest, emission_on_hit) =
@@ -120,7 +120,7 @@ impl schemars::JsonSchema for CheckId {
     fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
         schemars::json_schema!({
             "type": "string",
-            "description": "kind/scene/technique/max_bounces, and /emission-off where lights that are hit emit nothing",
+            "description": "kind/scene/technique/max_bounces, followed by /emission-off if emission_on_hit is off",
             "pattern": "^[a-z-]+/.+/(bsdf|nee|mis)/[0-9]+(/emission-off)?$"
         })
     }
@@ -131,7 +131,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_name_is_read_back_whatever_the_scene_is_called() {
+    fn an_identity_parses_back_whatever_the_name_of_the_scene() {
         for scene in
             ["cornell_box", "hidden/cellar", "a/nee/8", "emission-off", "x/emission-off", "nee", "8/mis/1"]
         {
@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn other_texts_are_no_names() {
+    fn malformed_identities_are_refused() {
         for text in [
             "",
             "mean-bias",
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn drawn_scenes_and_those_not_handed_out_are_for_staff() {
+    fn random_scenes_and_scenes_not_handed_out_are_staff_only() {
         let visibility = |text: &str| text.parse::<CheckId>().map(|id| id.visibility());
         assert_eq!(visibility("mean-bias/cornell_box/nee/8"), Ok(Visibility::Public));
         assert_eq!(visibility("mean-bias/hidden/cellar/nee/8"), Ok(Visibility::StaffOnly));

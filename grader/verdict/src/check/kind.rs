@@ -2,35 +2,35 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What a check asks of a submission.
+/// A kind of check.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, schemars::JsonSchema,
 )]
 #[serde(rename_all = "kebab-case")]
 pub enum CheckKind {
-    /// Means against formulas for each pixel.
+    /// Means against a closed form for each pixel.
     ClosedForm,
-    /// Noise against that of the other techniques.
+    /// Variance against that of the other techniques.
     Efficiency,
-    /// Means in scenes that are drawn at random, against the solution.
+    /// Means in randomly generated scenes, against the solution.
     HiddenVariants,
-    /// Selection of lights against the selection probability that is divided by.
+    /// Frequency of light selection against the selection probability in the estimator.
     LightPick,
     /// Means against a reference image.
     MeanBias,
-    /// Means in scenes that are changed in ways that must not show.
+    /// Means in scenes that are transformed with a known effect on the image.
     Metamorphic,
-    /// MIS weights, one by one; `max_bounces` is the longest path that is looked at.
+    /// Individual MIS weights, on paths of up to `max_bounces` bounces.
     MisWeights,
-    /// Number of bounces that paths are given.
+    /// Length of paths against `max_bounces`.
     PathLength,
-    /// Independence of pixels, batches and seeds.
+    /// Independence of pixels, batches and seeds; repeatability.
     Randomness,
-    /// Rays per path; `max_bounces` is the longest path that is looked at.
+    /// Rays per path, on paths of up to `max_bounces` bounces.
     RayBudget,
-    /// Scenes and densities at the ends of single precision.
+    /// Scenes and densities near the limits of single precision.
     Stability,
-    /// Means against the closed form of a uniformly emitting enclosure.
+    /// Means against the closed form of a uniformly emitting enclosure (white furnace test).
     WhiteFurnace,
 }
 
@@ -51,7 +51,7 @@ impl CheckKind {
         Self::WhiteFurnace,
     ];
 
-    /// Its name in rubrics, reports and on command lines.
+    /// Name in rubrics, in reports and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::ClosedForm => "closed-form",
@@ -69,13 +69,13 @@ impl CheckKind {
         }
     }
 
-    /// True if it asks whether what is right in known scenes is right in others, too: it adds nothing about a submission
-    /// that is wrong in the known ones.
-    pub fn goes_further(self) -> bool {
+    /// True if it tests whether a submission that is right in the known scenes is right in others, too. It tells
+    /// nothing new about a submission that is wrong in the known scenes.
+    pub fn tests_generalisation(self) -> bool {
         matches!(self, Self::HiddenVariants | Self::Metamorphic | Self::Stability)
     }
 
-    /// True if it runs in a scene of the collection.
+    /// True if it runs in a scene of `scenes/`.
     pub fn needs_scene(self) -> bool {
         !matches!(
             self,

@@ -1,47 +1,47 @@
-//! What is found where means are judged.
+//! Evidence of the checks that test means.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The mean of a picture compared with what it should be.
+/// Result of testing the mean of a picture for bias.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MeanTest {
-    /// The region that decided: the one that is biased, or else the whole image.
+    /// The region that decided: the biased one, or the whole image if none is.
     pub region: RegionId,
-    /// Relative error of its mean; none if it should be black, so that any light is infinitely wrong.
+    /// Relative error of its mean; `None` if it should be black.
     pub effect: Option<f64>,
-    /// 99 % confidence interval of that error.
+    /// 99 % confidence interval of that error; `None` if it should be black.
     pub interval: Option<[f64; 2]>,
-    /// Smallest relative error of the whole image that would have been found; none if any could hide.
+    /// Smallest relative error of the whole image that would have been detected; `None` if there is no such error.
     pub detectable: Option<f64>,
-    /// Relative error of the whole image that a pass excludes.
+    /// Relative error of the whole image's mean that a pass excludes.
     pub tolerance: f64,
-    /// Relative error of the plain mean of the whole image; none if it should be black.
+    /// Relative error of the whole image's mean; `None` if it should be black.
     pub whole: Option<Effect>,
-    /// For each of 8 × 8 tiles, row by row from the top, its error in standard errors, as a normal deviate.
+    /// For each of 8 × 8 tiles, row by row from the top, its error as a normal deviate (in standard errors).
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub z: Vec<f64>,
 }
 
-/// A relative error.
+/// A relative error with its uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Effect {
-    /// Its estimate.
+    /// Estimate of the error.
     pub relative: f64,
     /// Half the width of its 99 % confidence interval.
     pub margin: f64,
 }
 
-/// A part of an image.
+/// A region of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct RegionId {
-    /// What is summed over it.
+    /// The weighted sum over the region.
     pub kind: RegionKind,
-    /// First and last column, first and last row; none for the whole image.
+    /// First and last column, first and last row; `None` for the whole image.
     pub pixels: Option<[[u32; 2]; 2]>,
 }
 
-/// What is summed over a region.
+/// The weighted sum over a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RegionKind {
@@ -49,9 +49,9 @@ pub enum RegionKind {
     Channel(Channel),
     /// Luminance of a tile.
     Luminance,
-    /// All pixels, each weighted by how well it is known.
+    /// All pixels, weighted by the inverse of their relative variance.
     Weighted,
-    /// All tiles, with weights of either sign.
+    /// All tiles, with positive and negative weights.
     Pattern,
 }
 
@@ -65,29 +65,29 @@ pub enum Channel {
     Blue,
 }
 
-/// What is found in a white furnace.
+/// Result of a white furnace.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FurnaceTest {
-    /// The picture that decided: the first that is wrong, or else the one that is known least.
+    /// Test of the picture that decided: the first biased one, or else the first inconclusive one, or else the last.
     pub test: MeanTest,
     /// Maximum number of bounces of that picture.
     pub max_bounces: u32,
-    /// Energy of light after 0, 1, 2, … bounces; empty where it has no closed form bounce by bounce.
+    /// Energy of light after exactly 0, 1, 2, … bounces; empty if it has no closed form per bounce.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub energy: Vec<BounceEnergy>,
 }
 
-/// Energy of light after a number of bounces.
+/// Energy of light after a given number of bounces.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BounceEnergy {
-    /// Relative to the exact value: 1 if it is right.
+    /// Energy relative to the exact value: 1 is right.
     pub relative: f64,
-    /// Half the width of its 99 % confidence interval; none if it has none.
+    /// Half the width of its 99 % confidence interval; `None` if unbounded.
     pub margin: Option<f64>,
 }
 
 impl BounceEnergy {
-    /// True where [`BounceEnergy::relative`] can be plotted and stored.
+    /// True if [`BounceEnergy::relative`] can be plotted and stored.
     pub fn is_finite(&self) -> bool {
         self.relative.is_finite()
     }

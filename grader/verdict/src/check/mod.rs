@@ -1,4 +1,4 @@
-//! One check: its kind, its identity, what it found.
+//! A check: its kind, its identity and its result.
 
 mod evidence;
 mod fault;

@@ -1,61 +1,61 @@
-//! The outcome of a check.
+//! The result of a check.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{CheckId, Evidence, Fault, MeanTest, Numerics, Visibility};
 
-/// What one check of one submission has come to.
+/// Result of one check of one submission.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CheckResult {
     /// Identity of the check.
     pub id: CheckId,
-    /// The task that it decides.
+    /// Number of the task that it belongs to.
     pub task: String,
     /// True if it must pass for any points in its task.
     pub required: bool,
-    /// Who may see it.
+    /// Who may see the check.
     pub visibility: Visibility,
-    /// How it ended.
+    /// The verdict.
     pub verdict: Verdict,
-    /// Why, as a code.
+    /// Code of the reason for the verdict.
     pub reason: Reason,
-    /// What the submission did instead of answering, if it did.
+    /// What went wrong if the submission gave no valid answer.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fault: Option<Fault>,
-    /// What was measured; none where the check was not run, or got no answer.
+    /// Measurements; `None` if the check was not run or got no valid answer.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub evidence: Option<Evidence>,
-    /// Samples that are not radiance.
+    /// Samples that are not radiance (NaN, infinite or negative).
     #[serde(default, skip_serializing_if = "Numerics::is_clean")]
     pub numerics: Numerics,
-    /// True if it was given only a short look, because the points are lost to another check.
+    /// True if it was run with few samples, because a required check has already cost the points.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub short_look: bool,
-    /// Paths traced.
+    /// Number of paths traced.
     pub samples: u64,
     /// Wall time in seconds.
     pub seconds: f64,
 }
 
-/// How a check can end.
+/// Verdict of a check.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
-    /// It is right.
+    /// The submission is right.
     Pass,
-    /// It is wrong.
+    /// The submission is wrong.
     Fail,
-    /// Neither can be told.
+    /// Too noisy to decide.
     Inconclusive,
-    /// Its result could change nothing, so it was not run.
+    /// The check was not run, since its result cannot affect the points.
     Skipped {
-        /// Why.
+        /// The reason.
         why: SkipReason,
     },
-    /// It could not be run, and earns nothing.
+    /// The check could not be run and earns no points.
     NotRun {
-        /// Why.
+        /// The reason.
         why: NotRun,
     },
 }
@@ -64,7 +64,7 @@ pub enum Verdict {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SkipReason {
-    /// The points of its task are lost to this check; none where students do not see it.
+    /// This required check has already cost the points of the task; `None` if students may not see that check.
     PointsLostTo(Option<CheckId>),
 }
 
@@ -72,50 +72,50 @@ pub enum SkipReason {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum NotRun {
-    /// The submission used up its time in earlier checks.
+    /// Earlier checks exceeded their time limits too often.
     OutOfTime,
 }
 
-/// Why a check ended as it did.
+/// Reason for a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Reason {
-    /// Nothing is wrong.
+    /// The check passed.
     None,
-    /// The mean is wrong.
+    /// A mean is wrong.
     Bias,
     /// MIS weights are wrong.
     Weights,
-    /// Too noisy to tell.
+    /// Too noisy to decide.
     Noise,
-    /// So noisy that a technique is missing.
+    /// As noisy as if a technique were missing.
     Efficiency,
-    /// Random numbers are shared, or not the sampler's.
+    /// Random numbers are shared between pixels or seeds, or are not those of the sampler.
     Randomness,
-    /// More rays than the sheet allows.
+    /// Paths trace more rays than the sheet allows.
     RayBudget,
     /// NaN, infinite or negative samples.
     Numerics,
-    /// The submission took too long.
+    /// The submission exceeded its time limit.
     Timeout,
-    /// It panicked or its process ended.
+    /// The submission panicked or its process died.
     Crash,
-    /// Its answer was not what was asked for.
+    /// The answer violated the protocol.
     Violation,
 }
 
 impl CheckResult {
-    /// True if its task lacks points for it.
-    pub fn is_lacking(&self) -> bool {
+    /// True if the check costs its task points: it failed, is inconclusive or could not be run.
+    pub fn costs_points(&self) -> bool {
         !matches!(self.verdict, Verdict::Pass | Verdict::Skipped { .. })
     }
 
-    /// True if it was run, to whatever end.
+    /// True if it was run, whatever the verdict.
     pub fn was_run(&self) -> bool {
         !matches!(self.verdict, Verdict::Skipped { .. } | Verdict::NotRun { .. })
     }
 
-    /// The picture whose mean decided, where one did.
+    /// The test of the picture whose mean decided; `None` if the check does not test means.
     pub fn mean_test(&self) -> Option<&MeanTest> {
         self.evidence.as_ref().and_then(Evidence::mean_test)
     }

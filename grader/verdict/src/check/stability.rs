@@ -1,4 +1,4 @@
-//! What is found at the ends of single precision.
+//! Evidence of the check `stability`.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -7,107 +7,107 @@ use super::Anomaly;
 use crate::number::Float;
 use crate::replay::ReplayTarget;
 
-/// Everything that is wrong in extreme scenes and at extreme densities.
+/// Numerical failures in extreme scenes and at extreme densities.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StabilityTest {
-    /// Those that points depend on first.
+    /// The failures, graded ones first.
     pub findings: Vec<StabilityFinding>,
 }
 
-/// One thing that is wrong.
+/// One numerical failure.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StabilityFinding {
-    /// Where.
+    /// Where it occurs.
     pub place: Place,
-    /// How.
+    /// How the submission deviates.
     pub deviation: Deviation,
-    /// What most often does that.
+    /// The most frequent cause of such a deviation.
     pub likely_cause: NumericalCause,
-    /// True if points depend on it; what lies beyond the range that is graded is only remarked on.
+    /// True if it costs points; false if it lies outside the graded range.
     pub is_graded: bool,
-    /// The first sample that is wrong.
+    /// The first wrong sample.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub first: Option<Anomaly>,
-    /// The path that shows it, where no single sample is to blame.
+    /// A path to replay if no single sample is wrong.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub replay: Option<ReplayTarget>,
 }
 
-/// Where something is wrong.
+/// Where a numerical failure occurs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Place {
-    /// In the room as it is.
+    /// In the unchanged room.
     Unchanged,
-    /// In the room 2^n times as large.
+    /// In the room scaled by 2^n.
     Scaled(i32),
-    /// In the room with lights 2^n times as bright.
+    /// In the room with all emission scaled by 2^n.
     Brightened(i32),
     /// In a scene of `scenes/extreme/`.
     ExtremeScene(String),
     /// At these densities per solid angle.
     Densities {
-        /// That of the light sample.
+        /// Density of the light sample.
         light: Float,
-        /// That of the BSDF sample.
+        /// Density of the BSDF sample.
         bsdf: Float,
     },
 }
 
-/// How something is wrong.
+/// How a submission deviates from the expected result.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Deviation {
-    /// Samples that are not radiance.
+    /// Samples are not radiance.
     Anomalies {
-        /// NaN or infinite.
+        /// Number of samples that are NaN or infinite.
         non_finite: u64,
-        /// Finite but negative.
+        /// Number of samples that are finite but negative.
         negative: u64,
     },
-    /// The mean of a region, compared with the scene as it is.
+    /// The mean of a region differs from that of the unchanged scene.
     Region {
-        /// First and last column, first and last row; none for the whole image.
+        /// First and last column, first and last row; `None` for the whole image.
         pixels: Option<[[u32; 2]; 2]>,
         /// Relative difference.
         relative: Float,
-        /// What the first sample that differs should be.
+        /// Expected value of the first sample that differs.
         expected: Float,
     },
-    /// The mean of an extreme scene.
+    /// The mean of an extreme scene is wrong.
     Mean {
         /// Mean of the submission.
         found: Float,
         /// The exact mean.
         expected: Float,
-        /// Why that is exact.
+        /// Derivation of the exact mean.
         because: String,
     },
-    /// One of the two techniques returns a radiance that is not one.
+    /// A path returns a value that is not radiance.
     NoRadiance {
-        /// True for the light sample, false for the BSDF sample.
+        /// True if the light sample contributes it, false if the BSDF sample does.
         of_light_sample: bool,
-        /// The radiance.
+        /// The value.
         value: Float,
-        /// Pairs of densities that fail alike, and pairs that were tried.
+        /// Number of pairs of densities that fail in this way, and number of pairs tested.
         pairs: [u32; 2],
     },
-    /// Weights that do not sum to one.
+    /// MIS weights do not sum to one.
     WeightSum {
-        /// Their sum.
+        /// Sum of the weights.
         sum: Float,
-        /// Pairs of densities that fail alike, and pairs that were tried.
+        /// Number of pairs of densities that fail in this way, and number of pairs tested.
         pairs: [u32; 2],
     },
     /// A sample of infinite density contributes, though 1/∞ is 0.
     InfiniteDensityContributes {
-        /// Pairs of densities that fail alike, and pairs that were tried.
+        /// Number of pairs of densities that fail in this way, and number of pairs tested.
         pairs: [u32; 2],
     },
 }
 
 impl Deviation {
-    /// Samples that were NaN or infinite, and negative ones.
+    /// Number of samples that were NaN or infinite, and number of negative ones.
     pub fn anomalies(&self) -> [u64; 2] {
         match self {
             Self::Anomalies { non_finite, negative } => [*non_finite, *negative],
@@ -117,7 +117,7 @@ impl Deviation {
     }
 }
 
-/// What most often makes numbers go wrong like that.
+/// The most frequent cause of a numerical failure.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum NumericalCause {
@@ -125,38 +125,38 @@ pub enum NumericalCause {
     InvalidOperation,
     /// Division by zero, or an overflow.
     DivisionByZeroOrOverflow,
-    /// A cosine whose sign is ignored.
+    /// A cosine whose sign is not checked.
     SignOfCosine,
-    /// A square or cube of lengths over- or underflows, in a scene of this size.
+    /// A power of a length overflows or underflows.
     PowerOfLength {
         /// Size of the scene in its own units.
         size: f64,
     },
-    /// A fixed epsilon or minimum distance, in a scene of this size.
+    /// A fixed epsilon or minimum distance.
     FixedEpsilon {
         /// Size of the scene in its own units.
         size: f64,
         /// True if the epsilon is large compared with the scene, false if it is small.
         is_large: bool,
     },
-    /// Radiance is clamped to this value, which so many samples have to the last bit.
+    /// Radiance is clamped: many samples have exactly the same value.
     ClampedRadiance {
         /// The value.
         limit: Float,
-        /// Samples that have it.
+        /// Number of samples with that value.
         samples: u64,
     },
-    /// Radiance is clamped or compressed, or overflow is turned into zero.
+    /// Radiance is clamped or tone-mapped, or an overflow becomes zero.
     LimitedRadiance,
     /// Small contributions are dropped, or underflow.
     DroppedContributions,
     /// A constant is added to radiance or compared with it.
     ConstantInRadiance,
-    /// NaN hidden as zero, or a ray that starts or ends too close.
+    /// NaN replaced by zero, or a ray with a wrong offset.
     HiddenNanOrOffset,
     /// A limit on radiance, densities or distances.
     Limit,
-    /// A ray passes through what should stop it, or light is counted twice.
+    /// A ray passes through an occluder, or light is counted twice.
     LeakOrDoubleCount,
     /// 0/0, as in p / (p + q) with both zero.
     BothDensitiesZero,
@@ -168,14 +168,14 @@ pub enum NumericalCause {
     DensityOverflow,
     /// 0/0 after a square of densities underflowed.
     DensityUnderflow,
-    /// A quotient or product of densities over- or underflows.
+    /// A quotient or product of densities overflows or underflows.
     DensityRange,
     /// An infinite square or sum of densities is replaced by a weight of one on both sides.
     OverflowPatchedToOne,
-    /// The square of a density over- or underflows, and NaN is hidden as zero.
+    /// The square of a density overflows or underflows, and NaN is replaced by zero.
     DensityNanHidden,
-    /// Densities are clamped, or weighted differently by the two techniques.
+    /// Densities are clamped, or the two techniques use different weights.
     ClampedDensities,
-    /// ∞/∞ turned into one.
+    /// ∞/∞ replaced by one.
     InfinityOverInfinity,
 }

@@ -1,81 +1,81 @@
-//! What is found where MIS weights are read one by one.
+//! Evidence of the check `mis-weights`.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The weights of a submission.
+/// MIS weights of a submission.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WeightTest {
-    /// What is wrong, if anything is.
+    /// What is wrong with the weights; `None` if they are right.
     pub fault: Option<WeightFault>,
-    /// The weights; none where a path returned NaN or infinity.
+    /// The measured weights; `None` if a path returned NaN or infinity.
     pub measured: Option<MeasuredWeights>,
 }
 
-/// What is wrong with the weights.
+/// What is wrong with MIS weights.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum WeightFault {
-    /// A path returned NaN or infinity at these densities per solid angle.
+    /// A path returned NaN or infinity at these densities.
     NotANumber {
-        /// That of the light sample.
+        /// Density of the light sample, per solid angle.
         light: f64,
-        /// That of the BSDF sample.
+        /// Density of the BSDF sample, per solid angle.
         bsdf: f64,
     },
-    /// At the first vertex of a path they do not sum to one, or do not rise with p_L / p_B.
+    /// At the first vertex of a path, the weights do not sum to one or do not increase with p_L / p_B.
     FirstVertex,
-    /// They are right at the first vertex and wrong at later ones.
+    /// The weights are right at the first vertex and wrong at later ones.
     LaterVertices,
-    /// Light that only one technique can find does not count in full.
+    /// Light that only one technique can find does not have weight 1.
     OnlyWay(OnlyWay),
 }
 
-/// Weights as functions of the densities.
+/// MIS weights as functions of the densities.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MeasuredWeights {
-    /// Weights of light samples.
+    /// Weight of light samples, w_L.
     pub light: WeightForm,
-    /// One minus the weights of BSDF samples.
+    /// One minus the weight of BSDF samples, 1 − w_B.
     pub bsdf: WeightForm,
-    /// Smallest and largest sum of the two weights at the first vertex.
+    /// Minimum and maximum of w_L + w_B at the first vertex.
     pub sum: [f64; 2],
-    /// Largest |w_L + w_B − 1| at the first vertex, beyond noise.
+    /// Maximum of |w_L + w_B − 1| at the first vertex, in excess of noise.
     pub deviation_at_first_vertex: f64,
-    /// Largest |w_L + w_B − 1| at later vertices, beyond noise.
+    /// Maximum of |w_L + w_B − 1| at later vertices, in excess of noise.
     pub deviation_at_later_vertices: f64,
     /// Weights of light that only one technique can find; each should be 1.
     pub only_way: Vec<OnlyWayWeight>,
-    /// For paths with one vertex, with ordinary densities: log₁₀ (p_L / p_B), w_L and w_B, in the order of the first.
+    /// For paths with one vertex and moderate densities: log₁₀ (p_L / p_B), w_L and w_B, sorted by the first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub points: Vec<[f32; 3]>,
 }
 
 impl MeasuredWeights {
-    /// Largest |w_L + w_B − 1| anywhere, beyond noise.
+    /// Maximum of |w_L + w_B − 1| at all vertices, in excess of noise.
     pub fn largest_deviation(&self) -> f64 {
         self.deviation_at_first_vertex.max(self.deviation_at_later_vertices)
     }
 }
 
-/// How a weight depends on what it may depend on.
+/// Functional form of a weight.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum WeightForm {
-    /// It is always the same.
+    /// The weight is constant.
     Constant(f64),
-    /// Its odds are a product of powers: exponents of p_L / p_B, distance, cosine at the light, number of lights, and
-    /// 1 / density per area.
+    /// The odds w / (1 − w) are a product of powers, with these exponents of p_L / p_B, distance, cosine at the light,
+    /// number of lights, and 1 / density per area.
     Powers([f64; WeightForm::FACTORS]),
-    /// Anything else.
+    /// Any other form.
     Other,
 }
 
 impl WeightForm {
-    /// Factors that weights may depend on.
+    /// Number of factors that a weight may depend on.
     pub const FACTORS: usize = 5;
 
-    /// Exponents, where the odds are a product of powers.
+    /// Exponents of the factors; `None` unless the odds are a product of powers.
     pub fn exponents(&self) -> Option<&[f64; Self::FACTORS]> {
         match self {
             Self::Powers(exponents) => Some(exponents),
@@ -83,7 +83,7 @@ impl WeightForm {
         }
     }
 
-    /// Exponents that are whole numbers but for noise.
+    /// Exponents rounded to integers; `None` unless all are integers up to noise.
     pub fn whole_exponents(&self) -> Option<[i32; Self::FACTORS]> {
         let exponents = self.exponents()?;
         let is_whole = |exponent: &f64| (exponent - exponent.round()).abs() < 0.15;
@@ -97,22 +97,22 @@ impl WeightForm {
 pub enum OnlyWay {
     /// A light that the camera sees.
     SeenByCamera,
-    /// A light that is hit after a delta bounce.
+    /// A light hit after a delta bounce.
     AfterDelta,
-    /// A light without area.
+    /// A light without an area.
     PointLight,
 }
 
 impl OnlyWay {
-    /// All of them.
+    /// All cases.
     pub const ALL: [Self; 3] = [Self::SeenByCamera, Self::AfterDelta, Self::PointLight];
 }
 
-/// Weight of light that only one technique can find.
+/// Measured weight of light that only one technique can find.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OnlyWayWeight {
-    /// Which light.
+    /// The light.
     pub light: OnlyWay,
-    /// Its weight; none if a path returned NaN or infinity.
+    /// Its weight, which should be 1; `None` if a path returned NaN or infinity.
     pub weight: Option<f64>,
 }

@@ -1,60 +1,60 @@
-//! Why a check means nothing in a scene.
+//! Why a check does not apply to a scene.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Why a check is skipped whatever the submission.
+/// Why a check does not apply, whatever the submission.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum WhyNot {
-    /// There are no lights: every technique gives black.
+    /// The scene has no lights: every technique returns black.
     NoLights,
-    /// No light has an area, so that BSDF sampling gives black.
+    /// No light has an area: BSDF sampling returns black.
     BsdfFindsNothing,
-    /// No light has an area, so that there is nothing to weigh.
+    /// No light has an area: there are no MIS weights to test.
     NothingToWeigh,
-    /// No light has an area, so that there is only one technique.
+    /// No light has an area: only one technique finds light.
     OneTechnique,
-    /// Every surface is black, a mirror or glass: next event estimation has nothing to do.
+    /// Every surface is black, a mirror or glass: next event estimation contributes nothing.
     NothingLit,
-    /// There is only one light to choose.
+    /// The scene has only one light: there is no light selection to test.
     OneLight,
-    /// The camera is not enclosed, so that light gets lost.
+    /// The scene is not closed: light escapes.
     NotEnclosed,
-    /// The enclosure does not emit the same everywhere: there is no closed form.
+    /// The enclosure does not emit uniformly: there is no closed form.
     NotUniform,
-    /// There is more than flat, diffuse, plainly coloured surfaces.
+    /// Some surface is not flat, diffuse and untextured.
     NotFlatDiffuse,
-    /// Only light after one bounce has a closed form.
+    /// The closed form covers one bounce only.
     SeveralBounces,
-    /// There are so many lights, too many to add up their formulas.
+    /// The scene has this many lights, too many for a closed form.
     ManyLights(usize),
-    /// A spot light has no closed form here.
+    /// The closed form does not cover spot lights.
     SpotLight,
-    /// A light with an area is partly hidden.
+    /// An area light is partly occluded.
     PartlyHidden,
-    /// The reference does not say how noisy the other techniques are.
+    /// The reference does not record the noise of the other techniques.
     UnknownNoise,
-    /// The other techniques are at most so many times as noisy, which does not tell them apart.
+    /// The variances of the techniques are too similar to tell them apart.
     AlikeNoise {
-        /// How many times.
+        /// Largest ratio of the variance of another technique to that of this one.
         at_most: f64,
-        /// How many are needed.
+        /// Ratio that the check needs.
         needed: f64,
     },
-    /// The check is not about that technique.
+    /// The check does not support the technique.
     Technique,
-    /// The check is about other numbers of bounces.
+    /// The check does not support the number of bounces.
     Bounces {
-        /// The fewest.
+        /// Minimum.
         min: u32,
-        /// The most.
+        /// Maximum.
         max: u32,
     },
-    /// The check cannot be told that lights that are hit emit nothing, or not with that technique.
+    /// The check does not support `emission_on_hit: off`, or not with this technique.
     EmissionOff,
-    /// The scene is not here: staff have it.
+    /// The scene is missing in this checkout: only staff have it.
     SceneNotHere,
-    /// There is no solution here to compare with: staff have it.
+    /// The solution is missing in this checkout: only staff have it.
     NoSolution,
 }

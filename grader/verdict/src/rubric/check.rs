@@ -1,4 +1,4 @@
-//! One check of a task, as a rubric names it.
+//! One check of a task, as specified in a rubric.
 
 use arty::integrator::Technique;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -9,25 +9,25 @@ use crate::check::{CheckId, CheckKind, Visibility};
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CheckSpec {
-    /// Which kind of check.
+    /// Kind of check.
     pub check: CheckKind,
-    /// In which scene; [`SCRIPTED`] for the kinds that make their own.
+    /// Name of the scene; [`SCRIPTED`] for kinds that build their own.
     #[serde(default = "scripted")]
     pub scene: String,
-    /// With which technique of the submission.
+    /// Technique of the submission.
     pub technique: Technique,
-    /// The largest number of bounces.
+    /// Maximum number of bounces.
     pub max_bounces: u32,
-    /// `off` if lights that a path hits emit nothing, so that only next event estimation finds light.
+    /// `off` if emission on hit is black, so that only next event estimation finds light.
     #[serde(default)]
     pub emission_on_hit: EmissionOnHit,
-    /// How many shares of the task's points it carries.
+    /// Weight of the check in the points of its task.
     #[serde(default = "one")]
     pub weight: f64,
-    /// True if it must pass for any points in the task: an untouched starting file must fail such a check.
+    /// True if it must pass for any points in the task. The untouched starting file must fail such a check.
     #[serde(default)]
     pub required: bool,
-    /// The relative error of the whole image's mean that a pass excludes.
+    /// Relative error of the whole image's mean that a pass excludes.
     #[serde(default = "two_percent")]
     pub tolerance: f64,
     #[serde(default, rename = "evidence", deserialize_with = "renamed_to_required")]
@@ -44,10 +44,10 @@ fn renamed_to_emission_on_hit<'de, D: Deserializer<'de>>(_: D) -> Result<(), D::
     Err(serde::de::Error::custom("`hits` is now called `emission_on_hit`"))
 }
 
-/// The name that stands for the scene of checks that make their own.
+/// Scene name of checks that build their own scenes.
 pub const SCRIPTED: &str = "scripted";
 
-/// Whether lights that a path hits emit anything.
+/// Whether `Hit::emission` returns emission.
 #[derive(
     Clone,
     Copy,
@@ -64,24 +64,24 @@ pub const SCRIPTED: &str = "scripted";
 )]
 #[serde(rename_all = "lowercase")]
 pub enum EmissionOnHit {
-    /// They do not: only next event estimation finds light.
+    /// It is black: only next event estimation finds light.
     Off,
-    /// They do, as ever.
+    /// It is that of the light.
     #[default]
     On,
 }
 
-/// Which light a picture shows.
+/// Which light paths an image contains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct View {
-    /// The largest number of bounces.
+    /// Maximum number of bounces.
     pub max_bounces: u32,
-    /// Whether lights that are hit emit anything.
+    /// Whether `Hit::emission` returns emission.
     pub emission_on_hit: EmissionOnHit,
 }
 
 impl CheckSpec {
-    /// A check with everything else as it is if a rubric says nothing, in no scene yet.
+    /// A check with default values, without a scene.
     pub fn new(check: CheckKind, technique: Technique, max_bounces: u32) -> Self {
         Self {
             check,
@@ -97,7 +97,7 @@ impl CheckSpec {
         }
     }
 
-    /// Its identity.
+    /// Identity of the check.
     pub fn id(&self) -> CheckId {
         CheckId {
             kind: self.check,
@@ -108,17 +108,17 @@ impl CheckSpec {
         }
     }
 
-    /// Who may see it.
+    /// Who may see the check.
     pub fn visibility(&self) -> Visibility {
         Visibility::of(self.check, &self.scene)
     }
 
-    /// Which light its pictures show.
+    /// Light paths that its images contain.
     pub fn view(&self) -> View {
         View { max_bounces: self.max_bounces, emission_on_hit: self.emission_on_hit }
     }
 
-    /// The techniques of which a reference has to know the noise.
+    /// Techniques whose noise the reference must record.
     pub fn techniques(&self) -> Vec<Technique> {
         match self.check {
             CheckKind::Efficiency => [&[self.technique], rivals(self.technique)].concat(),
@@ -127,7 +127,10 @@ impl CheckSpec {
         }
     }
 
-    /// What is wrong with it whatever its kind means, if anything is.
+    /// Checks the values that do not depend on the kind of check.
+    ///
+    /// # Errors
+    /// The first wrong value.
     pub(super) fn validate(&self) -> Result<(), String> {
         if !(self.weight.is_finite() && self.weight > 0.0) {
             return Err("`weight` must be a positive number".to_owned());
@@ -143,7 +146,7 @@ impl CheckSpec {
     }
 }
 
-/// The techniques that a technique has to be less noisy than.
+/// Techniques that a technique must be less noisy than.
 pub fn rivals(technique: Technique) -> &'static [Technique] {
     match technique {
         Technique::Bsdf => &[],

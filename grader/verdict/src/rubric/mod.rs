@@ -1,4 +1,4 @@
-//! What an assignment asks for, and what it is worth.
+//! The rubric of an assignment: its tasks, their points and their checks.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -18,14 +18,14 @@ pub use rules::{LateRule, Md5Rule, Rules, zone};
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rubric {
-    /// The assignment's name: that of its folder.
+    /// Name of the assignment: that of its folder.
     pub assignment: String,
-    /// Its title.
+    /// Title of the assignment.
     pub title: String,
-    /// What becomes of late submissions; without it, nothing is late.
+    /// Rules for late submissions; without them, no submission is late.
     #[serde(default)]
     pub policy: Option<Rules>,
-    /// The tasks, in the order of the sheet.
+    /// Tasks, in the order of the sheet.
     pub tasks: Vec<Task>,
 }
 
@@ -33,25 +33,25 @@ pub struct Rubric {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Task {
-    /// Its number on the sheet.
+    /// Number of the task on the sheet.
     pub id: String,
-    /// What it is about.
+    /// Title of the task.
     pub title: String,
-    /// Points for all of it.
+    /// Maximum points.
     pub points: f64,
-    /// True if a person marks it. Then it has no checks.
+    /// True if a tutor grades it. Then it has no checks.
     #[serde(default)]
     pub manual: bool,
-    /// Tasks whose evidence this one rests on as well: it earns nothing unless they have all of theirs.
+    /// Tasks whose required checks must pass, too: otherwise this task earns no points.
     #[serde(default)]
     pub requires: Vec<String>,
-    /// What is looked at. Each check carries the same share of the points, or `weight` times as much.
+    /// The checks. Each carries an equal share of the points, multiplied by its `weight`.
     #[serde(default)]
     pub checks: Vec<CheckSpec>,
 }
 
 impl Rubric {
-    /// Reads the rubric of an assignment.
+    /// Reads and validates the rubric of an assignment.
     pub fn load(path: &Path) -> Result<Self> {
         let (rubric, _) = arty::yaml::read::<Self>(path)?;
         rubric.validate().map_err(|message| Error::file(path, message))?;
@@ -66,18 +66,18 @@ impl Rubric {
                 return Err(format!("task {id}: `points` must be a positive number"));
             }
             if task.manual != task.checks.is_empty() {
-                return Err(format!("task {id}: either `manual: true` or a list of `checks`"));
+                return Err(format!("task {id}: give either `manual: true` or a list of `checks`"));
             }
             if !task.manual && !task.checks.iter().any(|check| check.required) {
                 return Err(format!(
-                    "task {id}: at least one check with `required: true`, or an untouched file earns points"
+                    "task {id}: mark a check with `required: true`, or the untouched starting file earns points"
                 ));
             }
             for required in &task.requires {
                 let known = self.tasks.iter().any(|other| other.id == *required && !other.manual);
                 if !known || required == id {
                     return Err(format!(
-                        "task {id}: `requires` names `{required}`, which is no other task with checks"
+                        "task {id}: `requires` names `{required}`, which is not another task with checks"
                     ));
                 }
             }
@@ -88,18 +88,18 @@ impl Rubric {
                 let earlier = &task.checks[..index];
                 earlier.iter().any(|other| other.id() == check.id()).then(|| check.id())
             }) {
-                return Err(format!("task {id}: {twice} stands there twice"));
+                return Err(format!("task {id}: {twice} is listed twice"));
             }
         }
         Ok(())
     }
 
-    /// All checks with the task they belong to.
+    /// All checks, each with its task.
     pub fn checks(&self) -> impl Iterator<Item = (&Task, &CheckSpec)> {
         self.tasks.iter().flat_map(|task| task.checks.iter().map(move |check| (task, check)))
     }
 
-    /// For each scene that is checked: for each picture that its reference needs, the techniques.
+    /// The views that the reference of each scene needs, with the techniques whose noise it has to record.
     pub fn scenes(&self) -> BTreeMap<&str, BTreeMap<View, Vec<Technique>>> {
         let mut scenes: BTreeMap<&str, BTreeMap<View, Vec<Technique>>> = BTreeMap::new();
         for (_, check) in self.checks().filter(|(_, check)| check.check.needs_scene()) {
@@ -128,7 +128,7 @@ mod tests {
     const CHECK: &str = "{check: mean-bias, scene: a, technique: nee, max_bounces: 1";
 
     #[test]
-    fn a_wrong_rubric_is_one_clear_error() {
+    fn each_mistake_in_a_rubric_has_its_own_message() {
         let task = |rest: &str| {
             format!("assignment: a\ntitle: t\ntasks:\n- {{id: x, title: t, points: 1, {rest}}}\n")
         };

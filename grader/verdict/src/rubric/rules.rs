@@ -1,50 +1,51 @@
-//! What the sheet says of lateness: the section `policy` of a rubric.
+//! Rules for late submissions: the section `policy` of a rubric.
 
 use jiff::tz::TimeZone;
 use serde::Deserialize;
 
-/// The section `policy`.
+/// Rules for late submissions.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rules {
-    /// The IANA name of the time zone in which times without an offset are meant.
+    /// IANA name of the time zone of times without an offset.
     pub time_zone: String,
-    /// What a late submission is worth; without it, late ones are not accepted.
+    /// Penalty for late submissions; without it, late submissions are not accepted.
     #[serde(default)]
     pub late: Option<LateRule>,
-    /// For those who send a checksum in time and the file later.
+    /// Rule for a checksum that arrives in time and its file later.
     #[serde(default)]
     pub md5: Option<Md5Rule>,
-    /// Points after a penalty are rounded to the nearest multiple of this, upwards in the middle.
+    /// Points after a penalty are rounded to the nearest multiple of this, ties upwards.
     #[serde(default = "half")]
     pub round_to: f64,
 }
 
-/// What a late submission is worth.
+/// Penalty for late submissions.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LateRule {
-    /// It is accepted if it is less than so many hours late.
+    /// A submission is accepted if it is less than this many hours late.
     pub less_than_hours: u32,
-    /// Then its points are multiplied by this.
+    /// Factor on its points, in [0, 1].
     pub factor: f64,
 }
 
-/// A checksum instead of the file.
+/// Rule for submitting a checksum before the deadline.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Md5Rule {
-    /// The file may come up to so many hours after the deadline, if its checksum came before it.
+    /// Number of hours after the deadline within which the file must arrive, if its checksum arrived before the
+    /// deadline.
     pub within_hours: u32,
 }
 
-/// The time zone of an IANA name such as `Europe/Berlin`.
+/// The time zone with an IANA name such as `Europe/Berlin`.
 ///
 /// # Errors
-/// If there is none of that name.
+/// If there is no such time zone.
 pub fn zone(name: &str) -> Result<TimeZone, String> {
     TimeZone::get(name)
-        .map_err(|_| format!("there is no time zone `{name}`; they are called like Europe/Berlin"))
+        .map_err(|_| format!("unknown time zone `{name}`: use an IANA name such as Europe/Berlin"))
 }
 
 fn half() -> f64 {
@@ -52,7 +53,10 @@ fn half() -> f64 {
 }
 
 impl Rules {
-    /// What is wrong with them, if anything is.
+    /// Checks the values.
+    ///
+    /// # Errors
+    /// The first wrong value.
     pub(crate) fn validate(&self) -> Result<(), String> {
         zone(&self.time_zone)?;
         if let Some(late) = self.late

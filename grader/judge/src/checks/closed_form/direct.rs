@@ -1,4 +1,4 @@
-//! Light that is scattered once, from points and from polygons of which all or nothing is seen.
+//! Direct light from point lights and from polygons that are fully visible or fully invisible.
 
 use std::f64::consts::PI;
 
@@ -12,37 +12,37 @@ use crate::checks::SceneWithReference;
 use verdict::check::WhyNot;
 use verdict::rubric::EmissionOnHit;
 
-/// A light that has a formula.
-enum Source {
-    /// With the intensity I = Φ / 4π: E = I cos θ / d².
+/// A light with a closed form.
+enum DirectLight {
+    /// A point light of intensity I = Φ / 4π: E = I cos θ / d².
     Point { position: Vec3, intensity: [f64; 3] },
-    /// A triangle that emits from its front.
+    /// A triangle that emits from its front side.
     Triangle { corners: [DVec3; 3], radiance: [f64; 3] },
 }
 
-/// With more lights than this nobody would want to add up their formulas.
-const MOST_LIGHTS: usize = 64;
+/// Maximum number of lights in a scene with a closed form.
+const MAX_LIGHTS: usize = 64;
 
-/// What each pixel shows; without the lights themselves where emission on hit is off.
+/// Radiance of each pixel, without visible lights if emission on hit is off.
 pub(super) fn picture(
-    judged: &SceneWithReference,
+    scene: &SceneWithReference,
     emission_on_hit: EmissionOnHit,
     rays: u32,
 ) -> Result<Pixels, WhyNot> {
-    let sources = sources(&judged.description)?;
-    if sources.len() > MOST_LIGHTS {
-        return Err(WhyNot::ManyLights(sources.len()));
+    let lights = lights(&scene.description)?;
+    if lights.len() > MAX_LIGHTS {
+        return Err(WhyNot::ManyLights(lights.len()));
     }
-    Pixels::integrate(&judged.scene, rays, |ray| {
-        let Some(hit) = judged.scene.intersect(ray) else { return Ok([0.0; 3]) };
+    Pixels::integrate(&scene.scene, rays, |ray| {
+        let Some(hit) = scene.scene.intersect(ray) else { return Ok([0.0; 3]) };
         let emission = hit.emission().filter(|_| emission_on_hit == EmissionOnHit::On);
         let emitted = emission.map_or([0.0; 3], |emission| emission.radiance.to_array().map(f64::from));
-        // A diffuse surface sends the same in every direction: f = ρ / π.
+        // The BSDF of a diffuse surface is constant: f = ρ / π.
         let reflected = hit.bsdf().eval(hit.normal).to_array().map(f64::from);
         let mut radiance = emitted;
         if reflected != [0.0; 3] {
-            for source in &sources {
-                let irradiance = source.irradiance(judged, &hit)?;
+            for light in &lights {
+                let irradiance = light.irradiance(scene, &hit)?;
                 (0..3).for_each(|channel| radiance[channel] += reflected[channel] * irradiance[channel]);
             }
         }
@@ -50,15 +50,15 @@ pub(super) fn picture(
     })
 }
 
-fn sources(description: &SceneDescription) -> Result<Vec<Source>, WhyNot> {
-    let mut sources = Vec::new();
+fn lights(description: &SceneDescription) -> Result<Vec<DirectLight>, WhyNot> {
+    let mut lights = Vec::new();
     for light in &description.lights {
-        sources.push(match *light {
+        lights.push(match *light {
             LightDescription::Point { position, power } => {
                 let intensity = power.to_array().map(|power| f64::from(power) / (4.0 * PI));
-                Source::Point { position, intensity }
+                DirectLight::Point { position, intensity }
             }
-            LightDescription::Triangle { vertices, radiance } => Source::Triangle {
+            LightDescription::Triangle { vertices, radiance } => DirectLight::Triangle {
                 corners: vertices.map(Vec3::as_dvec3),
                 radiance: radiance.to_array().map(f64::from),
             },
@@ -70,21 +70,21 @@ fn sources(description: &SceneDescription) -> Result<Vec<Source>, WhyNot> {
             let radiance = description.materials[triangle.material as usize].emission;
             if !radiance.is_black() {
                 let corners = triangle.positions.map(|corner| mesh.positions[corner as usize].as_dvec3());
-                sources.push(Source::Triangle { corners, radiance: radiance.to_array().map(f64::from) });
+                lights.push(DirectLight::Triangle { corners, radiance: radiance.to_array().map(f64::from) });
             }
         }
     }
-    Ok(sources)
+    Ok(lights)
 }
 
-impl Source {
-    fn irradiance(&self, judged: &SceneWithReference, hit: &Hit<'_>) -> Result<[f64; 3], WhyNot> {
+impl DirectLight {
+    fn irradiance(&self, scene: &SceneWithReference, hit: &Hit<'_>) -> Result<[f64; 3], WhyNot> {
         let (point, normal) = (hit.point.as_dvec3(), hit.normal.as_dvec3());
         match self {
             Self::Point { position, intensity } => {
                 let to_light = position.as_dvec3() - point;
                 let cos = normal.dot(to_light.normalize());
-                if cos <= 0.0 || judged.scene.occluded(hit, *position) {
+                if cos <= 0.0 || scene.scene.occluded(hit, *position) {
                     return Ok([0.0; 3]);
                 }
                 Ok(intensity.map(|intensity| intensity * cos / to_light.length_squared()))
@@ -101,7 +101,7 @@ impl Source {
                     [inside, 0.98 * a + 0.02 * inside, 0.98 * b + 0.02 * inside, 0.98 * c + 0.02 * inside]
                 {
                     let above = normal.dot(place - point) > 0.0;
-                    if above && judged.scene.occluded(hit, place.as_vec3()) {
+                    if above && scene.scene.occluded(hit, place.as_vec3()) {
                         return Err(WhyNot::PartlyHidden);
                     }
                 }

@@ -1,5 +1,5 @@
-//! **closed-form**: pictures whose every pixel has a formula. No reference has a say in them; only the noise that is
-//! normal comes from one.
+//! **closed-form**: scenes in which each pixel has a closed form. The expected means do not depend on the reference;
+//! only the expected variance does.
 
 mod direct;
 mod pixels;
@@ -13,11 +13,11 @@ use verdict::error::Error;
 use verdict::rubric::{CheckSpec, EmissionOnHit};
 
 use super::means::{self, Picture};
-use super::{Check, GradeContext, JobError, Observation, Outcome, SceneWithReference, mean_bias};
+use super::{Check, CheckOutcome, GradeContext, JobError, Observation, SceneWithReference, mean_bias};
 use pixels::{Pixels, RAYS};
 
-/// Rays for each pixel that show whether there is a closed form.
-const A_FEW: u32 = 2;
+/// Rays per pixel for testing whether a scene has a closed form.
+const TEST_RAYS: u32 = 2;
 
 pub(super) struct ClosedForm;
 
@@ -30,19 +30,19 @@ impl Check for ClosedForm {
         true
     }
 
-    fn telling_bounces(&self, _: u32) -> u32 {
-        // Direct light has a closed form in more scenes than all of it.
+    fn recommended_bounces(&self, _: u32) -> u32 {
+        // More scenes have a closed form for direct light than for global illumination.
         1
     }
 
     fn applies(&self, scene: &SceneWithReference, spec: &CheckSpec) -> Result<(), WhyNot> {
-        answer(scene, spec.max_bounces, EmissionOnHit::On, A_FEW).map(drop)
+        pixel_means(scene, spec.max_bounces, EmissionOnHit::On, TEST_RAYS).map(drop)
     }
 
-    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<Outcome, JobError> {
+    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<CheckOutcome, JobError> {
         let scene = context.scene(spec);
-        let pixels = answer(scene, spec.max_bounces, spec.emission_on_hit, RAYS)
-            .map_err(|why| Error::Input(format!("{}: no closed form ({why:?})", spec.id())))?;
+        let pixels = pixel_means(scene, spec.max_bounces, spec.emission_on_hit, RAYS)
+            .map_err(|why| Error::Input(format!("{}: the scene has no closed form ({why:?})", spec.id())))?;
         let mut expected = mean_bias::expected(spec, &scene.reference)?;
         expected.mean = pixels.mean;
         expected.error = pixels.error;
@@ -55,25 +55,28 @@ impl Check for ClosedForm {
     }
 }
 
-/// What each pixel should be, or why nobody knows.
-fn answer(
-    judged: &SceneWithReference,
+/// Exact mean of each pixel.
+///
+/// # Errors
+/// Why the scene has no closed form.
+fn pixel_means(
+    scene: &SceneWithReference,
     max_bounces: u32,
     emission_on_hit: EmissionOnHit,
     rays: u32,
 ) -> Result<Pixels, WhyNot> {
-    if !only_flat_diffuse(&judged.description) {
+    if !only_flat_diffuse(&scene.description) {
         return Err(WhyNot::NotFlatDiffuse);
     }
     if emission_on_hit == EmissionOnHit::On
-        && let Some(planes) = planes::recognise(&judged.description)
+        && let Some(planes) = planes::recognise(&scene.description)
     {
-        return planes.picture(&judged.scene, max_bounces, rays);
+        return planes.picture(&scene.scene, max_bounces, rays);
     }
     if max_bounces != 1 {
         return Err(WhyNot::SeveralBounces);
     }
-    direct::picture(judged, emission_on_hit, rays)
+    direct::picture(scene, emission_on_hit, rays)
 }
 
 fn only_flat_diffuse(description: &SceneDescription) -> bool {
@@ -86,11 +89,11 @@ fn only_flat_diffuse(description: &SceneDescription) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::test_scenes::judged;
+    use super::super::test_scenes;
     use super::*;
 
-    /// The references are rendered, the closed forms are not: they agree to within the noise of the one and the
-    /// quadrature of the other. Of 7 · 768 deviates one is beyond 6 in one of 90,000 sets of references.
+    /// References are rendered, closed forms are not: they agree up to the noise of the former and the quadrature
+    /// error of the latter. One of 7 · 768 deviates exceeds 6 in one of 90,000 sets of references.
     #[test]
     fn closed_forms_agree_with_references() {
         for (name, max_bounces) in [
@@ -102,19 +105,19 @@ mod tests {
             ("point_grid", 1),
             ("parallel_planes", 8),
         ] {
-            let judged = judged(name);
-            let pixels = answer(&judged, max_bounces, EmissionOnHit::On, RAYS)
+            let scene = test_scenes::load(name);
+            let pixels = pixel_means(&scene, max_bounces, EmissionOnHit::On, RAYS)
                 .unwrap_or_else(|why| panic!("{name}: {why:?}"));
             let view = verdict::rubric::View { max_bounces, emission_on_hit: EmissionOnHit::On };
-            let rendered = &judged.reference.views[&view];
-            let brightest = rendered.mean.iter().flatten().fold(0.0, |most: f64, &mean| most.max(mean));
+            let rendered = &scene.reference.views[&view];
+            let brightest = rendered.mean.iter().flatten().fold(0.0, |max: f64, &mean| max.max(mean));
             for (pixel, exact) in pixels.mean.iter().enumerate() {
                 for channel in 0..3 {
                     let (exact, seen) = (exact[channel], rendered.mean[pixel][channel]);
                     let noise =
                         rendered.variance_of_mean[pixel][channel].sqrt().hypot(pixels.error[pixel][channel]);
                     assert!(
-                        // Where light only just comes over an edge, rounding decides: a ten thousandth of the picture.
+                        // At shadow boundaries rounding decides: tolerate 1e-4 of the brightest pixel.
                         (exact - seen).abs() <= 6.0 * noise + 2e-3 * exact + 1e-4 * brightest,
                         "{name}, pixel {pixel}: {seen} instead of {exact} (± {noise})"
                     );
@@ -124,13 +127,13 @@ mod tests {
     }
 
     #[test]
-    fn other_scenes_have_none_and_say_why() {
+    fn other_scenes_are_refused_with_the_reason() {
         for (name, max_bounces, expected) in [
             ("point_plane", 2, WhyNot::SeveralBounces),
             ("cornell_box", 1, WhyNot::PartlyHidden),
             ("cornell_box_glossy", 1, WhyNot::NotFlatDiffuse),
         ] {
-            let why = answer(&judged(name), max_bounces, EmissionOnHit::On, A_FEW).err();
+            let why = pixel_means(&test_scenes::load(name), max_bounces, EmissionOnHit::On, TEST_RAYS).err();
             assert_eq!(why, Some(expected), "{name}");
         }
     }

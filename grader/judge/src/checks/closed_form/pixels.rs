@@ -1,4 +1,4 @@
-//! Means over pixels, by quadrature.
+//! Means of pixels by quadrature.
 
 use arty::ray::Ray;
 use arty::scene::Scene;
@@ -6,24 +6,24 @@ use verdict::check::WhyNot;
 
 use crate::reference::SIZE;
 
-/// The mean of each pixel's channels, and how well quadrature knows it.
+/// Mean and standard error of the quadrature of each pixel, by channel.
 pub(super) struct Pixels {
     pub(super) mean: Vec<[f64; 3]>,
     pub(super) error: Vec<[f64; 3]>,
 }
 
-/// Rays for each pixel, where their mean is wanted.
+/// Rays per pixel of the quadrature.
 pub(super) const RAYS: u32 = 192;
 
-/// The plastic number, the root of x³ = x + 1: multiples of 1/g and 1/g² fill the square evenly (Roberts 2018, "The
+/// The plastic number g, the root of g³ = g + 1: multiples of 1/g and 1/g² fill the square evenly (Roberts 2018, "The
 /// Unreasonable Effectiveness of Quasirandom Sequences").
 const PLASTIC: f64 = 1.324_717_957_244_746;
 
 impl Pixels {
-    /// Integrates the radiance that comes along rays over each pixel.
+    /// Integrates radiance over each pixel.
     ///
-    /// The error is that of points that are spread evenly over a square with an edge through it: it falls as N^(−3/4)
-    /// times the deviation between them, where that of random ones falls as N^(−1/2) (Mitchell, "Consequences of
+    /// The error is that of evenly distributed points in a square with an edge through it: it falls as N^(−3/4) times
+    /// the standard deviation of the values, where random points would give N^(−1/2) (Mitchell, "Consequences of
     /// Stratified Sampling in Graphics", SIGGRAPH 1996).
     pub(super) fn integrate(
         scene: &Scene,
@@ -58,7 +58,7 @@ impl Pixels {
     }
 }
 
-/// For each pixel the largest value of it and its neighbours: an edge may cut off a corner that no ray has found.
+/// Maximum over each pixel and its neighbours: an edge may cut off a corner of the pixel that no ray hits.
 fn widened(errors: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let (width, height) = (SIZE.0 as usize, SIZE.1 as usize);
     let around = |place: usize, size: usize| place.saturating_sub(1)..(place + 2).min(size);

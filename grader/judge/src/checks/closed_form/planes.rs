@@ -6,18 +6,18 @@ use verdict::check::WhyNot;
 
 use super::pixels::Pixels;
 
-/// How many times their distance the planes have to extend, at least, in both directions.
-const LARGE: f64 = 100.0;
+/// Minimum extent of the planes in both directions, relative to their distance.
+const MIN_EXTENT: f64 = 100.0;
 
-/// The planes, as a scene has them.
+/// Two parallel planes.
 pub(super) struct Planes<'a> {
-    /// Normal of the first plane's front.
+    /// Normal of the front side of the first plane.
     normal: DVec3,
-    /// What the first one is made of, and the second.
+    /// Materials of the two planes.
     materials: [&'a Material; 2],
 }
 
-/// Recognises the scene.
+/// Recognises a scene of two parallel planes; `None` for any other scene.
 pub(super) fn recognise(description: &SceneDescription) -> Option<Planes<'_>> {
     if !description.lights.is_empty() {
         return None;
@@ -46,12 +46,12 @@ pub(super) fn recognise(description: &SceneDescription) -> Option<Planes<'_>> {
     let mut extents = (high - low).to_array();
     extents.sort_by(f64::total_cmp);
     let material = |index: u32| description.materials.get(index as usize);
-    (facing && extents[1] > LARGE * gap)
+    (facing && extents[1] > MIN_EXTENT * gap)
         .then_some(Planes { normal: first.1, materials: [material(first.0)?, material(second.0)?] })
 }
 
 impl Planes<'_> {
-    /// After up to k bounces each plane sends L⁽ᵏ⁾ = L_e + ρ L′⁽ᵏ⁻¹⁾, with L′ that of the other one.
+    /// With up to k bounces, each plane has the radiance L⁽ᵏ⁾ = L_e + ρ L′⁽ᵏ⁻¹⁾, where L′ is that of the other plane.
     pub(super) fn picture(&self, scene: &Scene, max_bounces: u32, rays: u32) -> Result<Pixels, WhyNot> {
         let emitted = self.materials.map(|material| material.emission.to_array().map(f64::from));
         let albedo = self.materials.map(|material| material.diffuse.to_array().map(f64::from));

@@ -1,8 +1,8 @@
-//! Light from a polygon that emits the same everywhere.
+//! Irradiance from a uniformly emitting polygon.
 
 use glam::DVec3;
 
-/// The irradiance at a point (per unit of radiance) from the part of a polygon that is above the horizon.
+/// Irradiance at a point, per unit of radiance, from the part of a polygon above the horizon.
 ///
 /// E / L = ½ |Σ Θᵢ n·Γᵢ|, with the angle Θᵢ that edge i spans seen from the point and the unit normal Γᵢ of the
 /// plane through the edge and the point (Lambert 1760; Arvo, "Analytic Methods for Simulated Light Transport", 1995).
@@ -20,7 +20,7 @@ pub(super) fn irradiance(point: DVec3, normal: DVec3, corners: &[DVec3]) -> f64 
     0.5 * sum.abs()
 }
 
-/// What of a polygon (corners relative to the point) is above the horizon (Sutherland and Hodgman 1974).
+/// The part of a polygon (corners relative to the point) above the horizon (Sutherland and Hodgman 1974).
 fn clip(corners: impl Iterator<Item = DVec3>, normal: DVec3) -> Vec<DVec3> {
     let corners: Vec<DVec3> = corners.collect();
     let mut above = Vec::with_capacity(corners.len() + 1);
@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_below_the_horizon_does_not_count() {
+    fn parts_below_the_horizon_do_not_contribute() {
         let whole = [[-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0], [1.0, 1.0]].map(|[y, z]| DVec3::new(1.0, y, z));
         let upper = [[-1.0, 1.0], [-1.0, 0.0], [1.0, 0.0], [1.0, 1.0]].map(|[y, z]| DVec3::new(1.0, y, z));
         let seen = |corners: &[DVec3]| irradiance(DVec3::ZERO, DVec3::Z, corners);

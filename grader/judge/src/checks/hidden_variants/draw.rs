@@ -1,8 +1,8 @@
-//! Drawing a scene at random.
+//! Random generation of scenes.
 //!
-//! A room, closed or open at the front, with some blocks and lights; then all of it turned, scaled and moved. Lights
-//! keep away from walls and blocks, lobes are wide and lights not small, so that every technique is quiet enough to be
-//! judged with few samples.
+//! A scene is a room, closed or open at the front, with some blocks and lights, transformed by a random similarity.
+//! Lights keep a distance from walls and blocks, specular lobes are wide and lights are not small, so that every
+//! technique has a low variance.
 
 use arty::math::{Rgb, Vec3};
 use arty::sampler::Sampler;
@@ -13,11 +13,11 @@ use glam::Quat;
 
 use super::super::metamorphic::Transform;
 
-/// Half of the room's width and depth, and its height.
+/// Half of the width and depth of the room, and its height.
 const HALF: f32 = 2.0;
 const HEIGHT: f32 = 3.0;
 
-/// Draws a scene.
+/// Generates a scene.
 pub(super) fn scene(random: &mut Sampler) -> SceneDescription {
     let mut draw = Draw { random };
     let mut mesh = Mesh::default();
@@ -28,7 +28,7 @@ pub(super) fn scene(random: &mut Sampler) -> SceneDescription {
     materials.push(draw.diffuse("room"));
     for number in 0..draw.count(1, 3) {
         let half = Vec3::new(draw.between(0.25, 0.5), draw.between(0.2, 0.6), draw.between(0.25, 0.5));
-        // Side by side: blocks that meet would hide each other's surfaces.
+        // Side by side: intersecting blocks would hide each other's surfaces.
         let foot = Vec3::new(-1.2 + 1.2 * number as f32, 0.0, draw.between(-1.0, 0.2));
         let turn = Quat::from_rotation_y(draw.between(0.0, 3.0));
         let center = foot + Vec3::Y * (half.y + 0.1);
@@ -110,7 +110,7 @@ impl Draw<'_> {
         material
     }
 
-    /// A place that is well away from walls, and from blocks, which are lower.
+    /// A random position at a distance from the walls and above the blocks.
     fn place(&mut self) -> Vec3 {
         Vec3::new(self.between(-1.1, 1.1), self.between(2.0, 2.4), self.between(-1.1, 1.1))
     }
@@ -142,7 +142,7 @@ impl Draw<'_> {
     }
 }
 
-/// The first sides of a box; the last of six is that in the direction of +z.
+/// Adds the first `sides` sides of a box. The sixth side is the one at +z.
 fn add_box(
     mesh: &mut Mesh,
     low: Vec3,
@@ -172,7 +172,7 @@ mod tests {
     use arty::scene::Scene;
 
     #[test]
-    fn scenes_differ_are_lit_and_fill_the_picture() {
+    fn generated_scenes_differ_are_lit_and_fill_the_picture() {
         let mut closed = 0;
         for seed in 0..40 {
             let description = scene(&mut Sampler::new(seed, (0, 0), 0));

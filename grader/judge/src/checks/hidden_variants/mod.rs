@@ -1,7 +1,7 @@
-//! **hidden-variants**: scenes that nobody has seen before, drawn anew for each seed of a grade.
+//! **hidden-variants**: means in randomly generated scenes, new for each seed of a grade.
 //!
-//! There is no reference of them: the solution renders them at the same time, by the same protocol. Whatever fits the
-//! known scenes only shows here.
+//! They have no reference: the solution renders them during the grade, by the same protocol. A submission that is
+//! tuned to the known scenes fails here.
 
 mod draw;
 
@@ -12,17 +12,17 @@ use verdict::rubric::CheckSpec;
 
 use super::context::settings_of;
 use super::means::{self, Anomalies, Picture};
-use super::{Check, GradeContext, JobError, Observation, Outcome};
+use super::{Check, CheckOutcome, GradeContext, JobError, Observation};
 use crate::statistics::sequential::Decision;
 
-/// Scenes in each check.
+/// Number of scenes per check.
 const SCENES: u64 = 2;
 
-/// Samples of each pixel by the solution.
+/// Samples per pixel of the solution.
 const SAMPLES: u32 = 2048;
 
-/// Looks at most: the last takes as many samples as the solution. With one look fewer, one of 1,162 of these checks left a
-/// correct program undecided, in a scene that is noisier than most.
+/// Maximum number of looks. The last look takes as many samples as the solution. With one look fewer, one of 1,162 of
+/// these checks of a correct program was inconclusive, in an unusually noisy scene.
 const LOOKS: usize = 4;
 
 pub(super) struct HiddenVariants;
@@ -32,7 +32,7 @@ impl Check for HiddenVariants {
         CheckKind::HiddenVariants
     }
 
-    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<Outcome, JobError> {
+    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<CheckOutcome, JobError> {
         let mut samples = 0;
         let mut last = None;
         for number in 0..SCENES {
@@ -44,23 +44,23 @@ impl Check for HiddenVariants {
             }
         }
         let outcome = last.expect("there are several scenes");
-        Ok(Outcome { samples, ..outcome })
+        Ok(CheckOutcome { samples, ..outcome })
     }
 
     fn observations(&self, _: &Evidence) -> Vec<Observation> {
-        // Other scenes with each seed: nothing to compare.
+        // Each seed has other scenes, which cannot be compared.
         Vec::new()
     }
 }
 
-/// Judges one of the scenes.
+/// Tests the mean of one of the scenes.
 fn judge(
     context: &GradeContext<'_>,
     spec: &CheckSpec,
     number: u64,
     samples: &mut u64,
-) -> Result<Outcome, JobError> {
-    let no_solution = || Error::Harness(format!("{}: there is no solution to compare with", spec.id()));
+) -> Result<CheckOutcome, JobError> {
+    let no_solution = || Error::Harness(format!("{}: the solution to compare with is missing", spec.id()));
     let oracle = context.oracle.ok_or_else(no_solution)?;
     let seed = batch_seed(context.seed_of(spec), number);
     let scene = draw::scene(&mut Sampler::new(seed, (0, 0), 0));
@@ -79,7 +79,7 @@ fn judge(
     };
     let (mut judgement, mut anomalies) = attempt(1)?;
     if judgement.decision == Decision::Biased {
-        // Its confirmation rests on the same rendering of the solution: once more with another.
+        // The confirmation used the same rendering of the solution, so that the test is repeated with another one.
         (judgement, anomalies) = attempt(2)?;
     }
     let test = means::mean_test(&judgement, spec.tolerance);

@@ -1,8 +1,8 @@
-//! **metamorphic**: scenes that must look the same, or brighter by a known factor.
+//! **metamorphic**: transformed scenes whose image is known from that of the original.
 //!
-//! A scene is changed in a way of which the effect is known without rendering, and judged against the reference of the
-//! original. Whatever depends on units, on places or on how a thing is described shows: epsilons of the student's own,
-//! clamped samples, limits on brightness, pictures made ahead.
+//! A scene is transformed with a known effect on its image, and the image is compared with the reference of the
+//! original. This detects everything that depends on units, positions or the description of the scene: epsilons in the
+//! submission, clamped samples, limits on radiance, precomputed pictures.
 
 mod transform;
 
@@ -13,10 +13,10 @@ use verdict::check::{ChangeTest, CheckKind, Evidence, SceneChange};
 use verdict::rubric::CheckSpec;
 
 use super::means::{self, Anomalies, Picture};
-use super::{Check, GradeContext, JobError, Observation, Outcome, WrongPlace, mean_bias};
+use super::{Check, CheckOutcome, GradeContext, JobError, Observation, WrongPlace, mean_bias};
 use crate::statistics::sequential::{Decision, Judgement};
 
-/// A changed scene (several: their sum), and how many times as bright it is.
+/// A changed scene (if several, their images are summed), and the factor on its brightness.
 struct Change {
     change: SceneChange,
     scenes: Vec<SceneDescription>,
@@ -30,7 +30,7 @@ impl Check for Metamorphic {
         CheckKind::Metamorphic
     }
 
-    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<Outcome, JobError> {
+    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<CheckOutcome, JobError> {
         let scene = context.scene(spec);
         let changes = changes(&scene.description);
         let reference = mean_bias::expected(spec, &scene.reference)?;
@@ -74,7 +74,7 @@ impl Check for Metamorphic {
     }
 }
 
-/// All changes that mean something in the scene.
+/// All changes that apply to the scene.
 fn changes(scene: &SceneDescription) -> Vec<Change> {
     let one = |change, changed: SceneDescription| Change { change, scenes: vec![changed], brighter: 1.0 };
     let brighter = |change, factor: f32| Change {
@@ -92,7 +92,7 @@ fn changes(scene: &SceneDescription) -> Vec<Change> {
         one(SceneChange::Moved, moved(Transform::shift())),
         one(SceneChange::Tessellated, transform::tessellated(scene)),
         one(SceneChange::LightsSplit, transform::lights_split(scene)),
-        one(SceneChange::BlackObjects, transform::with_things_beside(scene)),
+        one(SceneChange::BlackObjects, transform::with_black_objects(scene)),
     ];
     if let Some(parts) = transform::lights_apart(scene) {
         changes.push(Change { change: SceneChange::LightsApart, scenes: parts.into(), brighter: 1.0 });

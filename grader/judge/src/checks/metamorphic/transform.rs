@@ -1,10 +1,10 @@
-//! Changes of scenes that leave what is seen as it is.
+//! Transformations of scenes with a known effect on the image.
 
 use arty::math::{Rgb, Vec3};
 use arty::scene::{LightDescription, Material, Mesh, MeshTriangle, SceneDescription, Specular};
 use glam::Quat;
 
-/// A similarity: turn, scale, then move.
+/// A similarity transform: rotation, then scaling, then translation.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::checks) struct Transform {
     pub(in crate::checks) rotation: Quat,
@@ -15,23 +15,23 @@ pub(in crate::checks) struct Transform {
 impl Transform {
     const NONE: Self = Self { rotation: Quat::IDENTITY, scale: 1.0, offset: Vec3::ZERO };
 
-    /// All lengths times a factor.
+    /// Scaling about the origin.
     pub(super) fn scale(scale: f32) -> Self {
         Self { scale, ..Self::NONE }
     }
 
-    /// About no axis of the scene, by no round angle.
+    /// A rotation about a generic axis by a generic angle.
     pub(super) fn turn() -> Self {
         Self { rotation: Quat::from_axis_angle(Vec3::new(0.48, -0.6, 0.64), 2.3), ..Self::NONE }
     }
 
-    /// By some scene sizes.
+    /// A translation by several scene sizes.
     pub(super) fn shift() -> Self {
         Self { offset: Vec3::new(17.0, -29.0, 41.0), ..Self::NONE }
     }
 
-    /// The scene, moved as a whole. Point lights keep the irradiance that they give: their power grows with the square
-    /// of lengths.
+    /// Transforms a scene. The power of point lights is scaled by the square of lengths, so that irradiances are
+    /// unchanged.
     pub(in crate::checks) fn apply(&self, scene: &SceneDescription) -> SceneDescription {
         let point = |p: Vec3| self.rotation * p * self.scale + self.offset;
         let vector = |v: Vec3| self.rotation * v;
@@ -67,7 +67,7 @@ impl Transform {
     }
 }
 
-/// All lights `factor` times as bright.
+/// Scales the emission of all lights.
 pub(super) fn brightened(scene: &SceneDescription, factor: f32) -> SceneDescription {
     let mut brighter = scene.clone();
     brighter.materials.iter_mut().for_each(|material| material.emission *= factor);
@@ -82,12 +82,12 @@ fn emitted(light: &mut LightDescription) -> &mut Rgb {
     }
 }
 
-/// Each flat triangle that is no light in four.
+/// Splits each flat triangle that does not emit into four.
 pub(super) fn tessellated(scene: &SceneDescription) -> SceneDescription {
     split_triangles(scene, |emits, triangle| !emits && triangle.normals.is_none(), quarters)
 }
 
-/// Each light in two: a point light as two of half the power, a triangle as its two halves.
+/// Splits each light into two: a point light into two of half the power, a triangle into its two halves.
 pub(super) fn lights_split(scene: &SceneDescription) -> SceneDescription {
     let mut split = split_triangles(scene, |emits, _| emits, halves);
     split.lights = scene.lights.iter().flat_map(|light| split_light(*light)).collect();
@@ -110,7 +110,7 @@ fn split_light(light: LightDescription) -> [LightDescription; 2] {
 
 type Pieces = Vec<[[f32; 3]; 3]>;
 
-/// The middles of the sides make four triangles; given and returned as weights of the three corners.
+/// Splits a triangle at the midpoints of its sides into four. Corners are barycentric coordinates.
 fn quarters() -> Pieces {
     let [a, b, c] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let [ab, bc, ca] = [[0.5, 0.5, 0.0], [0.0, 0.5, 0.5], [0.5, 0.0, 0.5]];
@@ -123,7 +123,7 @@ fn halves() -> Pieces {
     vec![[a, ab, c], [ab, b, c]]
 }
 
-/// Replaces the triangles that are wanted by pieces. Corners are made for each piece anew.
+/// Replaces the triangles for which `wanted` is true by pieces. The pieces share no vertices.
 fn split_triangles(
     scene: &SceneDescription,
     wanted: impl Fn(bool, &MeshTriangle) -> bool,
@@ -134,7 +134,7 @@ fn split_triangles(
         mesh.triangles.clear();
         for triangle in &original.triangles {
             let emits = !scene.materials[triangle.material as usize].emission.is_black();
-            // Interpolated normals of pieces would not be those of the whole.
+            // Interpolated normals of the pieces would differ from those of the triangle.
             if !wanted(emits, triangle) || triangle.normals.is_some() {
                 mesh.triangles.push(*triangle);
                 continue;
@@ -161,8 +161,8 @@ fn split_triangles(
     split
 }
 
-/// Black triangles on all sides, where neither the camera nor any surface can be hidden by them.
-pub(super) fn with_things_beside(scene: &SceneDescription) -> SceneDescription {
+/// Adds black triangles on all sides, outside of the bounding box, so that they occlude nothing.
+pub(super) fn with_black_objects(scene: &SceneDescription) -> SceneDescription {
     let mut larger = scene.clone();
     let points = scene.meshes.iter().flat_map(|mesh| &mesh.positions).copied();
     let lights = scene.lights.iter().flat_map(|light| match *light {
@@ -197,9 +197,9 @@ pub(super) fn with_things_beside(scene: &SceneDescription) -> SceneDescription {
     larger
 }
 
-/// Two scenes with every other light, of which the images add up to that of the whole; `None` with fewer than two lights.
+/// Divides the lights between two scenes, whose images sum to that of the original; `None` with fewer than two lights.
 ///
-/// A light that is out stays where it is, as a surface: only its emission goes.
+/// The surface of a removed light stays in the scene: only its emission is removed.
 pub(super) fn lights_apart(scene: &SceneDescription) -> Option<[SceneDescription; 2]> {
     let emits = |material: &Material| !material.emission.is_black();
     let lights = scene.lights.len() + scene.materials.iter().filter(|material| emits(material)).count();

@@ -1,11 +1,11 @@
-//! What the weights depend on.
+//! The functional form of the weights.
 
 use verdict::check::WeightForm;
 
 use super::{Configuration, Reading};
 use crate::statistics::regression::{Fit, fit};
 
-/// The form of a weight that should rise with p_L / p_B.
+/// The form of a weight that should increase with p_L / p_B.
 pub(super) fn of(seen: &[(&Configuration, Reading)], weight: impl Fn(&Reading) -> f64) -> WeightForm {
     let values: Vec<f64> = seen.iter().map(|(_, seen)| weight(seen)).collect();
     let noise = seen.iter().map(|(_, seen)| seen.error).fold(0.0, f64::max);
@@ -13,7 +13,7 @@ pub(super) fn of(seen: &[(&Configuration, Reading)], weight: impl Fn(&Reading) -
     if values.iter().all(|value| (value - mean).abs() < 1e-3 + 6.0 * noise) {
         return WeightForm::Constant(mean);
     }
-    // Near 0 and 1 the logit is all rounding or noise.
+    // Near 0 and 1 the logit is dominated by rounding and noise.
     let margin = 1e-4 + 10.0 * noise;
     let points: Vec<([f64; WeightForm::FACTORS], f64)> = seen
         .iter()

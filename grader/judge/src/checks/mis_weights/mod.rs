@@ -1,12 +1,12 @@
-//! **mis-weights**: do the weights of the two techniques sum to one, and do they rise with the right densities?
+//! **mis-weights**: do the MIS weights sum to one, and do they depend on the right densities?
 //!
-//! K = f · L · cos θ is what one light point can send along one path. If only light samples arrive the path finds
-//! A = w_L K / p_L, if only BSDF samples do B = w_B K / p_B; so w_L = A p_L / K and w_B = B p_B / K can be read off, for
-//! any densities that a script names (see [`scenes`]). The mean of a picture cannot show them: with swapped or constant
-//! weights it is right too.
+//! Let K = f · L · cos θ be the contribution of one light point along one path. If only light samples reach the light,
+//! the path returns A = w_L K / p_L; if only BSDF samples do, B = w_B K / p_B. Hence w_L = A p_L / K and w_B = B p_B /
+//! K can be measured for any scripted densities (see [`scenes`]). Means of pictures do not show them: these are right
+//! for swapped or constant weights, too.
 //!
-//! Any partition of unity that rises with p_L / p_B passes. What else the weights depend on shows in a regression of
-//! their logits ([`form`]).
+//! Any partition of unity that increases with p_L / p_B passes. A regression of the logits shows what else the weights
+//! depend on ([`form`]).
 
 mod form;
 mod only_way;
@@ -23,27 +23,28 @@ use verdict::check::{
 };
 use verdict::rubric::CheckSpec;
 
-use super::{Check, GradeContext, JobError, Observation, Outcome, Quantity, SceneWithReference};
+use super::{Check, CheckOutcome, GradeContext, JobError, Observation, Quantity, SceneWithReference};
 use only_way::OnlyWayTest;
-use scenes::MANY_LIGHTS;
-pub(super) use scenes::{Configuration, Plan, draw};
+use scenes::MAX_LIGHTS;
+pub(super) use scenes::{Configuration, ConfigurationRange, draw};
 
-/// How far the sum of two weights may be from one.
+/// Tolerated deviation of the sum of the weights from one.
 const TOLERATED: f64 = 1e-4;
 
-/// Paths in each scene, if the submission decides nothing by chance; and otherwise.
+/// Number of paths per scene for submissions without random decisions, and for others.
 const FEW: u64 = 64;
 const MANY: u64 = 16_384;
 
-/// How many standard errors are noise. Of a thousand comparisons one is beyond that once in 500,000 runs.
+/// Number of standard errors that count as noise. One of a thousand comparisons exceeds it once in 500,000 runs.
 const NOISE: f64 = 6.0;
 
-/// Configurations of moderate densities at one vertex (for the regression), of extreme ones, of each longer chain.
+/// Number of configurations with one vertex and moderate densities (for the regression), with one vertex and extreme
+/// densities, and of each longer path.
 const MODERATE: usize = 96;
 const EXTREME: usize = 48;
 const CHAINS: usize = 24;
 
-/// The weights of one configuration.
+/// The measured weights of one configuration.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reading {
     light: f64,
@@ -78,14 +79,14 @@ impl Check for MisWeights {
         }
     }
 
-    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<Outcome, JobError> {
+    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<CheckOutcome, JobError> {
         let (test, samples) = read_all(&mut context.start()?, spec, context.seed_of(spec))?;
         let reason = match test.fault {
             None => Reason::None,
             Some(WeightFault::NotANumber { .. }) => Reason::Numerics,
             Some(_) => Reason::Weights,
         };
-        Ok(Outcome::new(reason, Evidence::MisWeights(test), samples))
+        Ok(CheckOutcome::new(reason, Evidence::MisWeights(test), samples))
     }
 
     fn observations(&self, evidence: &Evidence) -> Vec<Observation> {
@@ -119,19 +120,19 @@ impl Check for MisWeights {
     }
 }
 
-/// Reads the weights of many configurations, and how many paths that took.
+/// Measures the weights of all configurations. Also returns the number of paths.
 fn read_all(process: &mut HostProcess, spec: &CheckSpec, seed: u64) -> Result<(WeightTest, u64), JobError> {
     let mut random = Sampler::new(seed, (0, 0), 0);
     let mut configurations = Vec::new();
-    let mut add = |count: usize, plan: Plan| {
-        configurations.extend((0..count).map(|_| (plan.vertices, draw(plan, &mut random))));
+    let mut add = |count: usize, range: ConfigurationRange| {
+        configurations.extend((0..count).map(|_| (range.vertices, draw(range, &mut random))));
     };
-    let moderate = Plan { vertices: 1, densities: 1.5, distances: 1.1, least_cos: 0.1 };
+    let moderate = ConfigurationRange { vertices: 1, densities: 1.5, distances: 1.1, min_cos: 0.1 };
     add(MODERATE, moderate);
     // e^27.6 is 10¹², e^3.9 is 50.
-    add(EXTREME, Plan { vertices: 1, densities: 27.6, distances: 3.9, least_cos: 0.05 });
+    add(EXTREME, ConfigurationRange { vertices: 1, densities: 27.6, distances: 3.9, min_cos: 0.05 });
     for vertices in 2..=spec.max_bounces as usize {
-        add(CHAINS, Plan { vertices, ..moderate });
+        add(CHAINS, ConfigurationRange { vertices, ..moderate });
     }
 
     let settings = Settings { technique: spec.technique, max_bounces: spec.max_bounces + 2 };
@@ -141,13 +142,13 @@ fn read_all(process: &mut HostProcess, spec: &CheckSpec, seed: u64) -> Result<(W
             |scenes: Vec<_>| process.probe(&ProbeJob { settings, scenes, samples, seed, stratified: false });
         let mut readings = Vec::new();
         let mut varies = false;
-        // A path tracer that samples every light selects none: then the density has no selection probability in it.
+        // A path tracer that samples all lights at each vertex has no selection probability in its densities.
         let mut samples_all_lights = true;
         for (vertices, configuration) in &configurations {
             let scenes = vec![configuration.light_side.clone(), configuration.bsdf_side.clone()];
             let paths = ask(scenes)?;
-            if *vertices == 1 && configuration.lights == MANY_LIGHTS {
-                samples_all_lights &= paths[0].iter().all(|path| path.light_samples as usize >= MANY_LIGHTS);
+            if *vertices == 1 && configuration.lights == MAX_LIGHTS {
+                samples_all_lights &= paths[0].iter().all(|path| path.light_samples as usize >= MAX_LIGHTS);
             }
             let Some(reading) = read(configuration, &paths) else {
                 let Configuration { p_light: light, p_bsdf: bsdf, .. } = *configuration;
@@ -161,7 +162,7 @@ fn read_all(process: &mut HostProcess, spec: &CheckSpec, seed: u64) -> Result<(W
             samples = MANY;
             continue;
         }
-        let only_way = only_way::look(process, settings, samples, seed)?;
+        let only_way = only_way::measure(process, settings, samples, seed)?;
         if samples_all_lights {
             for (_, configuration) in &mut configurations {
                 configuration.p_light *= configuration.lights as f64;
@@ -172,7 +173,7 @@ fn read_all(process: &mut HostProcess, spec: &CheckSpec, seed: u64) -> Result<(W
     }
 }
 
-/// Reads the weights off the paths of both scenes of a configuration; `None` if a path gives no number.
+/// The weights of a configuration from the paths of its two scenes; `None` if a path returns NaN or infinity.
 fn read(configuration: &Configuration, paths: &[Vec<ProbedPath>]) -> Option<Reading> {
     let side = |paths: &[ProbedPath], density: f64| {
         let (mean, error) = mean_and_error(paths)?;
@@ -184,8 +185,8 @@ fn read(configuration: &Configuration, paths: &[Vec<ProbedPath>]) -> Option<Read
     Some(Reading { light, bsdf, error: light_error.hypot(bsdf_error) })
 }
 
-/// Mean of the first channel and its standard error, which is 0 if the paths agree but for rounding; `None` if a path
-/// gives no number.
+/// Mean of the first channel and its standard error, which is 0 if the paths agree up to rounding; `None` if a path
+/// returns NaN or infinity.
 pub(super) fn mean_and_error(paths: &[ProbedPath]) -> Option<(f64, f64)> {
     if paths.iter().any(|path| path.radiance.iter().any(|value| !value.is_finite())) {
         return None;
@@ -231,7 +232,7 @@ fn judge(
     WeightTest { fault, measured: Some(measured) }
 }
 
-/// The weights over log₁₀ (p_L / p_B), for a plot; what is no number is left out.
+/// The weights over log₁₀ (p_L / p_B), for a plot; without points that are not finite.
 fn points(moderate: &[(&Configuration, Reading)]) -> Vec<[f32; 3]> {
     let point = |(it, seen): &(&Configuration, Reading)| {
         [(it.p_light / it.p_bsdf).log10(), seen.light, seen.bsdf].map(|value| value as f32)
@@ -242,7 +243,7 @@ fn points(moderate: &[(&Configuration, Reading)]) -> Vec<[f32; 3]> {
     points
 }
 
-/// True if the weight of light samples never falls as p_L / p_B rises, and rises somewhere.
+/// True if the weight of light samples never decreases with p_L / p_B, and increases overall.
 fn rises(moderate: &[(&Configuration, Reading)]) -> bool {
     let mut sorted: Vec<_> = moderate.iter().map(|(it, seen)| (it.p_light / it.p_bsdf, *seen)).collect();
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0));

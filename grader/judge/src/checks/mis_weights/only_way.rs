@@ -1,4 +1,4 @@
-//! Light that only one technique can find counts in full.
+//! Light that only one technique can find has weight 1.
 
 use arty::integrator::Settings;
 use arty::math::{Rgb, Vec3};
@@ -11,16 +11,16 @@ use super::{NOISE, TOLERATED, mean_and_error};
 use crate::scenes;
 use harness::job::JobError;
 
-/// The weights of these lights.
+/// Measured weights of light that only one technique can find.
 pub(super) struct OnlyWayTest {
-    /// The first that does not count in full.
+    /// The first case whose weight is not 1; `None` if all are right.
     pub(super) wrong: Option<OnlyWay>,
-    /// The weight of each.
+    /// The weights of all cases.
     pub(super) weights: Vec<OnlyWayWeight>,
 }
 
-/// Reads the weight of each.
-pub(super) fn look(
+/// Measures the weights of all cases.
+pub(super) fn measure(
     process: &mut HostProcess,
     settings: Settings,
     samples: u64,
@@ -44,7 +44,7 @@ pub(super) fn look(
     Ok(test)
 }
 
-/// The camera looks straight at the light.
+/// The camera looks at the light.
 fn seen_by_camera() -> ScriptedScene {
     let mut scene = scene(None);
     scene.origin = Vec3::new(0.3, 0.0, 0.5);
@@ -52,15 +52,15 @@ fn seen_by_camera() -> ScriptedScene {
     scene
 }
 
-/// The surface reflects everything straight to the light, with a probability of a quarter; densities are such that
-/// any weight but 1 shows.
+/// A delta distribution reflects towards the light with probability 1/4; with these densities, any weight other than 1
+/// changes the result.
 fn after_delta() -> ScriptedScene {
     let direction = LIGHT.normalize();
     let f = 0.25 / direction.z;
     scene(Some(ScriptedBsdf { target: LIGHT, f, pdf: 0.25, is_delta: true }))
 }
 
-/// A point light of intensity such that f · I · cos / d² = 1, and a BSDF sample that goes nowhere.
+/// A point light with f · I · cos / d² = 1, and a BSDF sample that hits nothing.
 fn point_light() -> ScriptedScene {
     let mut scene =
         scene(Some(ScriptedBsdf { target: Vec3::new(-1.0, 0.5, 1.0), f: 0.5, pdf: 3.0, is_delta: false }));
@@ -74,7 +74,7 @@ fn point_light() -> ScriptedScene {
     scene
 }
 
-/// The middle of the light.
+/// Center of the light.
 const LIGHT: Vec3 = Vec3::new(1.0, 0.25, 1.0);
 
 /// A surface in the plane z = 0 around the origin, and a light of radiance 1 that faces it.

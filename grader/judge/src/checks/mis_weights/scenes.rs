@@ -1,9 +1,9 @@
-//! Scenes in which one weight can be read off.
+//! Scripted scenes in which the radiance of a path reveals one MIS weight.
 //!
-//! Around the normal of the last vertex stand N equal triangle lights. On each lie two points, mirrored about the
-//! plane through that normal and the light's middle: so both have the same distance and the same cosines. One is where
-//! light samples go, the other where BSDF samples go. A small black triangle stands in the way to the one or the other.
-//! All of this is true geometry; only densities and the value of the BSDF are scripted.
+//! N equal triangle lights stand around the normal of the last vertex. Each has two points, mirrored about the plane
+//! through that normal and the center of the light, so that both have the same distance and the same cosines. Light
+//! samples go to the one, BSDF samples to the other. A small black triangle occludes one of them. The geometry is
+//! real; only densities and the value of the BSDF are scripted.
 
 use std::f32::consts::TAU;
 
@@ -15,53 +15,53 @@ use host::protocol::{ScriptedBsdf, ScriptedLight, ScriptedScene};
 
 use crate::scenes;
 
-/// What a configuration is drawn from.
+/// The range from which a configuration is drawn.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::checks) struct Plan {
-    /// Vertices of the path before the light.
+pub(in crate::checks) struct ConfigurationRange {
+    /// Number of vertices of the path before the light.
     pub(in crate::checks) vertices: usize,
-    /// ln of the range of densities per solid angle, on either side of 1.
+    /// Densities per solid angle lie between e^−`densities` and e^`densities`.
     pub(in crate::checks) densities: f32,
-    /// ln of the range of distances, on either side of 1.
+    /// Distances lie between e^−`distances` and e^`distances`.
     pub(in crate::checks) distances: f32,
-    /// The least cosine.
-    pub(in crate::checks) least_cos: f32,
+    /// Minimum cosine.
+    pub(in crate::checks) min_cos: f32,
 }
 
-/// Two scenes that differ in which way to the light is open.
+/// Two scenes that differ in the technique that reaches the light.
 #[derive(Clone, Debug)]
 pub(in crate::checks) struct Configuration {
     /// Only light samples arrive.
     pub(in crate::checks) light_side: ScriptedScene,
     /// Only the BSDF sample of the last vertex arrives.
     pub(in crate::checks) bsdf_side: ScriptedScene,
-    /// Density of the light sample per solid angle, with the probability of picking the light.
+    /// Density of the light sample per solid angle, including the selection probability.
     pub(in crate::checks) p_light: f64,
     /// Density of the BSDF sample per solid angle.
     pub(in crate::checks) p_bsdf: f64,
-    /// The distance from the last vertex to the light.
+    /// Distance from the last vertex to the light.
     pub(in crate::checks) distance: f64,
-    /// The cosine at the light.
+    /// Cosine at the light.
     pub(in crate::checks) cos_light: f64,
-    /// How many lights there are.
+    /// Number of lights.
     pub(in crate::checks) lights: usize,
-    /// 1 / density of the light sample per area.
+    /// 1 / (density of the light sample per area, given the light).
     pub(in crate::checks) area: f64,
-    /// What the path would find at weight 1 with a density of 1: throughput · f · L · cos.
+    /// Contribution of the path at weight 1 and density 1: throughput · f · L · cos.
     pub(in crate::checks) contribution: f64,
 }
 
-/// How far, relative to the distance, light points are from the middle of their light.
+/// Distance of light points from the center of their light, relative to the distance of the light.
 const HALF: f32 = 0.05;
 
-/// The most lights in a configuration: more than the hit points of a path with one vertex.
-pub(super) const MANY_LIGHTS: usize = 5;
+/// Maximum number of lights in a configuration: more than a path with one vertex has hit points.
+pub(super) const MAX_LIGHTS: usize = 5;
 
-/// Draws a configuration; again until rays confirm that it is as it should be.
-pub(in crate::checks) fn draw(plan: Plan, random: &mut Sampler) -> Configuration {
+/// Draws configurations until one is valid: exactly the intended technique reaches the light, as rays confirm.
+pub(in crate::checks) fn draw(range: ConfigurationRange, random: &mut Sampler) -> Configuration {
     loop {
-        let configuration = attempt(plan, random);
-        let open = |scripted: &ScriptedScene| open_ways(scripted, plan.vertices);
+        let configuration = attempt(range, random);
+        let open = |scripted: &ScriptedScene| open_ways(scripted, range.vertices);
         let lights = configuration.lights;
         if open(&configuration.light_side) == Some((lights, false))
             && open(&configuration.bsdf_side) == Some((0, true))
@@ -71,14 +71,14 @@ pub(in crate::checks) fn draw(plan: Plan, random: &mut Sampler) -> Configuration
     }
 }
 
-fn attempt(plan: Plan, random: &mut Sampler) -> Configuration {
+fn attempt(range: ConfigurationRange, random: &mut Sampler) -> Configuration {
     let mut between = |low: f32, high: f32| low + (high - low) * random.next_1d();
-    let lights = [1, 2, MANY_LIGHTS][between(0.0, 3.0) as usize % 3];
-    let d = between(-plan.distances, plan.distances).exp();
-    let cos_light = between(plan.least_cos.ln(), 0.0).exp();
-    let cos = between(plan.least_cos.ln(), 0.85f32.ln()).exp();
+    let lights = [1, 2, MAX_LIGHTS][between(0.0, 3.0) as usize % 3];
+    let d = between(-range.distances, range.distances).exp();
+    let cos_light = between(range.min_cos.ln(), 0.0).exp();
+    let cos = between(range.min_cos.ln(), 0.85f32.ln()).exp();
     let (wanted_light, pdf) =
-        (between(-plan.densities, plan.densities).exp(), between(-plan.densities, plan.densities).exp());
+        (between(-range.densities, range.densities).exp(), between(-range.densities, range.densities).exp());
     let target_light = (between(0.0, lights as f32) as usize).min(lights - 1);
     let (turn, tilt) = (between(0.0, TAU), if between(0.0, 1.0) < 0.5 { -1.0 } else { 1.0 });
     let frame = Frame::around(unit(between(-1.0, 1.0), between(0.0, TAU)));
@@ -114,7 +114,7 @@ fn attempt(plan: Plan, random: &mut Sampler) -> Configuration {
     for step in [back, aside, last] {
         way.push(way[way.len() - 1] + 1.5 * step);
     }
-    let way: Vec<Vec3> = way.into_iter().take(plan.vertices + 1).map(to_world).collect();
+    let way: Vec<Vec3> = way.into_iter().take(range.vertices + 1).map(to_world).collect();
 
     let normal_of_light = front_normal(corners(0));
     let (to_light, distance) = exact_direction(way[0], sampled[0]);
@@ -125,7 +125,7 @@ fn attempt(plan: Plan, random: &mut Sampler) -> Configuration {
     let mut builder = Builder::default();
     let mut bsdfs = Vec::new();
     let mut contribution = 1.0;
-    for vertex in 0..plan.vertices {
+    for vertex in 0..range.vertices {
         let towards = if vertex == 0 { target } else { way[vertex - 1] };
         let normal = if vertex == 0 {
             frame.to_world(Vec3::Z)
@@ -137,10 +137,10 @@ fn attempt(plan: Plan, random: &mut Sampler) -> Configuration {
         let corners = builder.add_around(way[vertex], normal, 0.05 * d);
         let cos = front_normal(corners).dot(exact_direction(way[vertex], towards).0).abs();
         let (pdf, value) = if vertex == 0 {
-            // Then a path finds 1 in either way if its weights are those of the balance heuristic.
+            // With this value, a path returns 1 with either technique under the balance heuristic.
             (pdf, (p_light + f64::from(pdf)) / cos)
         } else {
-            let pdf = between(-plan.densities.min(4.0), plan.densities.min(4.0)).exp();
+            let pdf = between(-range.densities.min(4.0), range.densities.min(4.0)).exp();
             (pdf, f64::from(pdf) / cos)
         };
         let f = value as f32;
@@ -148,8 +148,8 @@ fn attempt(plan: Plan, random: &mut Sampler) -> Configuration {
         bsdfs.push(Some(ScriptedBsdf { target: towards, f, pdf, is_delta: false }));
     }
     bsdfs.push(None);
-    // No light sample of an earlier vertex arrives.
-    for &vertex in &way[1..plan.vertices] {
+    // Occlude the light samples of earlier vertices.
+    for &vertex in &way[1..range.vertices] {
         sampled.iter().for_each(|&point| builder.block(vertex, point, 0.01 * d));
     }
     let mut bsdf_side = builder.clone();
@@ -158,9 +158,9 @@ fn attempt(plan: Plan, random: &mut Sampler) -> Configuration {
 
     let triangles: Vec<[Vec3; 3]> = (0..lights).map(corners).collect();
     let scripts: Vec<_> = sampled.iter().map(|&point| Some(ScriptedLight { point, pdf_area })).collect();
-    let (origin, aim) = (way[plan.vertices], way[plan.vertices - 1]);
+    let (origin, aim) = (way[range.vertices], way[range.vertices - 1]);
     let scripted = |builder: Builder| ScriptedScene {
-        scene: builder.finish(plan.vertices, &triangles),
+        scene: builder.finish(range.vertices, &triangles),
         bsdfs: bsdfs.clone(),
         lights: scripts.clone(),
         origin,
@@ -195,8 +195,8 @@ fn exact_direction(from: Vec3, to: Vec3) -> (glam::DVec3, f64) {
     (difference.normalize(), difference.length())
 }
 
-/// How many lights the last vertex sees the sampled point of, and whether its BSDF sample hits a light; `None` if the
-/// path does not get there, or if another vertex sees a light.
+/// The number of lights whose sampled point is visible from the last vertex, and whether its BSDF sample hits a light.
+/// `None` if the path does not reach the last vertex, or if another vertex sees a light.
 fn open_ways(scripted: &ScriptedScene, vertices: usize) -> Option<(usize, bool)> {
     let scene = Scene::new(&scripted.scene);
     let mut ray = Ray::new(scripted.origin, scripted.direction);
@@ -217,14 +217,14 @@ fn open_ways(scripted: &ScriptedScene, vertices: usize) -> Option<(usize, bool)>
     None
 }
 
-/// Triangles: those of vertices first, each of its own material, then black ones.
+/// Triangles of a scene: those of the path's vertices first, each with its own material, then occluders.
 #[derive(Clone, Default)]
 struct Builder {
     triangles: Vec<[Vec3; 3]>,
 }
 
 impl Builder {
-    /// An equilateral triangle around a point.
+    /// Adds an equilateral triangle around a point.
     fn add_around(&mut self, point: Vec3, normal: Vec3, radius: f32) -> [Vec3; 3] {
         let frame = Frame::around(normal);
         let corner = |i: u8| point + frame.to_world(radius * unit(0.0, TAU * f32::from(i) / 3.0));
@@ -233,7 +233,7 @@ impl Builder {
         corners
     }
 
-    /// Puts something black half way between two points.
+    /// Adds an occluder halfway between two points.
     fn block(&mut self, from: Vec3, to: Vec3, radius: f32) {
         self.add_around(0.5 * (from + to), direction_and_distance(from, to).0, radius);
     }
@@ -260,12 +260,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_kind_of_configuration_is_found_and_mirrored_points_are_alike() {
+    fn configurations_of_every_length_are_drawn_and_mirrored_points_have_equal_distances() {
         let mut random = Sampler::new(1, (0, 0), 0);
         for vertices in [1, 2, 3] {
             for _ in 0..20 {
-                let plan = Plan { vertices, densities: 27.6, distances: 3.9, least_cos: 0.05 };
-                let configuration = draw(plan, &mut random);
+                let range = ConfigurationRange { vertices, densities: 27.6, distances: 3.9, min_cos: 0.05 };
+                let configuration = draw(range, &mut random);
                 let scripted = &configuration.bsdf_side;
                 let hit_point = scripted.bsdfs[0].expect("it is scripted").target;
                 let last = if vertices == 1 {

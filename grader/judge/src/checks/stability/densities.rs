@@ -1,7 +1,8 @@
-//! Weights for densities at the ends of what single precision holds.
+//! MIS weights for densities near the limits of single precision.
 //!
-//! In a scripted scene the light can be reached in one way only (see [`mis_weights`](crate::checks::mis_weights)), and
-//! whatever the densities are, both ways together must bring f · L · cos / (p_L + p_B) twice over their weights' sum.
+//! In each of two scripted scenes only one technique reaches the light (see
+//! [`mis_weights`](crate::checks::mis_weights)). For all densities, the two contributions must correspond to weights
+//! that sum to one.
 
 use arty::integrator::Settings;
 use arty::sampler::Sampler;
@@ -9,53 +10,53 @@ use host::protocol::{ProbeJob, ProbedPath, ScriptedScene};
 
 use verdict::check::{Deviation, NumericalCause, Place, StabilityFinding};
 
-use super::{Asked, Found};
-use crate::checks::mis_weights::{Configuration, Plan, draw, mean_and_error};
+use super::{PartResult, StabilityContext, is_radiance};
+use crate::checks::mis_weights::{Configuration, ConfigurationRange, draw, mean_and_error};
 use harness::host_process::HostProcess;
 
-/// Paths in each scene, for submissions that decide something by chance.
+/// Number of paths per scene, for submissions with random decisions.
 const PATHS: u64 = 256;
 
-/// How far the sum of two weights may be from one, beyond noise.
+/// Tolerated deviation of the sum of the weights from one, and number of standard errors that count as noise.
 const TOLERATED: f64 = 1e-3;
 const NOISE: f64 = 7.0;
 
-/// Densities of this many decades on either side of 1 are in the range that is judged.
-const JUDGED: f64 = 1.000_001e12;
+/// Densities are graded from the reciprocal of this up to this.
+const GRADED_RANGE: f64 = 1.000_001e12;
 
-/// Densities that are paired, all with all.
+/// Densities per solid angle. All pairs are tested.
 const DENSITIES: [f64; 11] = [0.0, 1e-30, 1e-20, 1e-12, 1e-6, 1.0, 1e6, 1e12, 1e20, 1e30, f64::INFINITY];
 
-/// The greatest throughput of a path that is asked for.
-const MOST_THROUGHPUT: f64 = 1e37;
+/// Maximum throughput of a tested path.
+const MAX_THROUGHPUT: f64 = 1e37;
 
-/// A pair of densities with what came of it.
+/// The result for a pair of densities per solid angle.
 struct Pair {
     light: f64,
     bsdf: f64,
-    outcome: Outcome,
+    result: PairResult,
 }
 
-enum Outcome {
+enum PairResult {
     Right,
-    /// True in the light sample, false in the BSDF sample: the radiance of the path.
-    NoRadiance(bool, f32),
-    /// The sum of the weights.
+    /// A path returned this value, which is not radiance. True for the light sample, false for the BSDF sample.
+    NotRadiance(bool, f32),
+    /// The weights have this sum.
     Sum(f64),
-    /// Light where there should be none: the infinite density's reciprocal is 0.
+    /// A sample of infinite density contributes, although it should be divided by infinity.
     Bright,
 }
 
-pub(super) fn find(asked: &Asked<'_>, process: &mut HostProcess) -> Found {
-    let mut random = Sampler::new(asked.seed, (0, 0), 0);
-    let plan = Plan { vertices: 1, densities: 1.0, distances: 0.1, least_cos: 0.5 };
-    let configuration = draw(plan, &mut random);
-    let settings = Settings { max_bounces: 3, ..asked.settings };
+pub(super) fn find(stability: &StabilityContext<'_>, process: &mut HostProcess) -> PartResult {
+    let mut random = Sampler::new(stability.seed, (0, 0), 0);
+    let range = ConfigurationRange { vertices: 1, densities: 1.0, distances: 0.1, min_cos: 0.5 };
+    let configuration = draw(range, &mut random);
+    let settings = Settings { max_bounces: 3, ..stability.settings };
     let mut pairs = Vec::new();
     for light in DENSITIES {
         for bsdf in DENSITIES {
-            // The path goes on with f · cos / p_B, which single precision has to hold, or nobody could be right.
-            if bsdf > 0.0 && within_f32(light) / bsdf > MOST_THROUGHPUT {
+            // The throughput f · cos / p_B must be representable in single precision.
+            if bsdf > 0.0 && within_f32(light) / bsdf > MAX_THROUGHPUT {
                 continue;
             }
             let scenes = scripted(&configuration, light, bsdf);
@@ -63,26 +64,26 @@ pub(super) fn find(asked: &Asked<'_>, process: &mut HostProcess) -> Found {
                 settings,
                 scenes: scenes.to_vec(),
                 samples: PATHS,
-                seed: asked.seed,
+                seed: stability.seed,
                 stratified: false,
             };
             let paths = process.probe(&job)?;
-            pairs.push(Pair { light, bsdf, outcome: judge(&configuration, light, bsdf, &paths) });
+            pairs.push(Pair { light, bsdf, result: evaluate(&configuration, light, bsdf, &paths) });
         }
     }
     let paths = 2 * PATHS * pairs.len() as u64;
-    let (judged, beyond): (Vec<Pair>, Vec<Pair>) = pairs.into_iter().partition(|pair| {
-        let inside = |density: f64| (1.0 / JUDGED..JUDGED).contains(&density);
+    let (graded, beyond): (Vec<Pair>, Vec<Pair>) = pairs.into_iter().partition(|pair| {
+        let inside = |density: f64| (1.0 / GRADED_RANGE..GRADED_RANGE).contains(&density);
         inside(pair.light) && inside(pair.bsdf)
     });
-    let findings = [(judged, true), (beyond, false)];
+    let findings = [(graded, true), (beyond, false)];
     Ok((findings.iter().flat_map(|(pairs, is_graded)| describe(pairs, *is_graded)).collect(), paths))
 }
 
-/// Both scenes of the configuration with other densities per solid angle.
+/// The two scenes of a configuration with the given densities per solid angle.
 fn scripted(configuration: &Configuration, light: f64, bsdf: f64) -> [ScriptedScene; 2] {
     let pdf_area = (light * per_area(configuration)) as f32;
-    // Then each weight of the balance heuristic brings 1, whatever the densities; an end of the range brings little.
+    // With this value, each technique contributes 1 under the balance heuristic, whatever the densities.
     let value = (within_f32(light) + within_f32(bsdf)) / receiver_cos(configuration);
     [&configuration.light_side, &configuration.bsdf_side].map(|side| {
         let mut side = side.clone();
@@ -97,12 +98,12 @@ fn scripted(configuration: &Configuration, light: f64, bsdf: f64) -> [ScriptedSc
     })
 }
 
-/// Density per area for a density of 1 per solid angle, with the probability of picking the light.
+/// Density per area of a light point whose density per solid angle, including the selection probability, is 1.
 fn per_area(configuration: &Configuration) -> f64 {
     configuration.lights as f64 * configuration.cos_light / configuration.distance.powi(2)
 }
 
-/// f · L · cos of the configuration as it was drawn, divided by its f: L is 1.
+/// Cosine at the receiver: contribution f · L · cos of the original configuration divided by f, with L = 1.
 fn receiver_cos(configuration: &Configuration) -> f64 {
     let f = configuration.light_side.bsdfs.iter().flatten().next().map_or(1.0, |script| f64::from(script.f));
     configuration.contribution / f
@@ -112,60 +113,61 @@ fn within_f32(density: f64) -> f64 {
     density.min(1e30)
 }
 
-fn judge(configuration: &Configuration, light: f64, bsdf: f64, paths: &[Vec<ProbedPath>]) -> Outcome {
-    let [sampled, hit] = paths else { return Outcome::NoRadiance(true, f32::NAN) };
-    // What has the density 0 is never drawn, so that nobody has to divide by it.
+fn evaluate(configuration: &Configuration, light: f64, bsdf: f64, paths: &[Vec<ProbedPath>]) -> PairResult {
+    let [sampled, hit] = paths else { return PairResult::NotRadiance(true, f32::NAN) };
+    // A sample of density 0 is never drawn, so that its path need not be valid.
     let drawn = [(true, sampled, light), (false, hit, bsdf)];
-    for (way, paths, _) in drawn.into_iter().filter(|(.., density)| *density > 0.0) {
-        let bad =
-            paths.iter().flat_map(|path| path.radiance).find(|value| !(value.is_finite() && *value >= 0.0));
+    for (of_light_sample, paths, _) in drawn.into_iter().filter(|(.., density)| *density > 0.0) {
+        let bad = paths.iter().flat_map(|path| path.radiance).find(|&value| !is_radiance(value));
         if let Some(value) = bad {
-            return Outcome::NoRadiance(way, value);
+            return PairResult::NotRadiance(of_light_sample, value);
         }
     }
     let mean = |paths: &[ProbedPath]| mean_and_error(paths).unwrap_or((0.0, 0.0));
     let (sampled, hit) = (mean(sampled), mean(hit));
     let contribution =
         receiver_cos(configuration) * ((within_f32(light) + within_f32(bsdf)) / receiver_cos(configuration));
-    // A way whose density is 0 is never taken, and one whose density is infinite brings nothing.
+    // A sample of density 0 is never drawn, and one of infinite density contributes nothing.
     let taken = |density: f64| density > 0.0 && density.is_finite();
     if !taken(light) || !taken(bsdf) {
         let dark = [(light, sampled.0), (bsdf, hit.0)];
         let bright = dark.into_iter().any(|(density, mean)| density.is_infinite() && mean > 1e-3);
-        return if bright { Outcome::Bright } else { Outcome::Right };
+        return if bright { PairResult::Bright } else { PairResult::Right };
     }
     let sum = sampled.0 * light / contribution + hit.0 * bsdf / contribution;
     let noise = NOISE * (sampled.1 * light / contribution).hypot(hit.1 * bsdf / contribution);
-    if (sum - 1.0).abs() <= TOLERATED + noise { Outcome::Right } else { Outcome::Sum(sum) }
+    if (sum - 1.0).abs() <= TOLERATED + noise { PairResult::Right } else { PairResult::Sum(sum) }
 }
 
-/// One finding for all pairs that fail alike: the first of them, and how many there are.
+/// One finding for each kind of failure: the first such pair and the number of pairs.
 fn describe(pairs: &[Pair], is_graded: bool) -> Vec<StabilityFinding> {
-    let of = |fails: fn(&Outcome) -> bool| {
-        let all: Vec<&Pair> = pairs.iter().filter(|pair| fails(&pair.outcome)).collect();
+    let of = |fails: fn(&PairResult) -> bool| {
+        let all: Vec<&Pair> = pairs.iter().filter(|pair| fails(&pair.result)).collect();
         let first = *all.first()?;
         let pairs = [all.len() as u32, pairs.len() as u32];
-        let (deviation, likely_cause) = match first.outcome {
-            Outcome::NoRadiance(of_light_sample, value) => {
+        let (deviation, likely_cause) = match first.result {
+            PairResult::NotRadiance(of_light_sample, value) => {
                 (Deviation::NoRadiance { of_light_sample, value: value.into(), pairs }, cause(first))
             }
-            Outcome::Sum(sum) => (Deviation::WeightSum { sum: sum.into(), pairs }, cause_of_sum(first, sum)),
-            Outcome::Right | Outcome::Bright => {
+            PairResult::Sum(sum) => {
+                (Deviation::WeightSum { sum: sum.into(), pairs }, cause_of_sum(first, sum))
+            }
+            PairResult::Right | PairResult::Bright => {
                 (Deviation::InfiniteDensityContributes { pairs }, NumericalCause::InfinityOverInfinity)
             }
         };
         let place = Place::Densities { light: first.light.into(), bsdf: first.bsdf.into() };
         Some(StabilityFinding { place, deviation, likely_cause, is_graded, first: None, replay: None })
     };
-    let kinds: [fn(&Outcome) -> bool; 3] = [
-        |outcome| matches!(outcome, Outcome::NoRadiance(..)),
-        |outcome| matches!(outcome, Outcome::Sum(_)),
-        |outcome| matches!(outcome, Outcome::Bright),
+    let kinds: [fn(&PairResult) -> bool; 3] = [
+        |result| matches!(result, PairResult::NotRadiance(..)),
+        |result| matches!(result, PairResult::Sum(_)),
+        |result| matches!(result, PairResult::Bright),
     ];
     kinds.into_iter().filter_map(of).collect()
 }
 
-/// What makes NaN or infinity of such operands.
+/// The most frequent cause of NaN or infinity at such densities.
 fn cause(pair: &Pair) -> NumericalCause {
     let (min, max) = (pair.light.min(pair.bsdf), pair.light.max(pair.bsdf));
     if max == 0.0 {

@@ -1,8 +1,8 @@
-//! The same scene larger or brighter.
+//! Invariance of the picture under scaling and brightening of the scene.
 //!
-//! All factors are powers of two, so that scaling is exact in floating-point numbers: whatever a correct submission does,
-//! with the same random numbers it gives the same picture, to the last bit. A constant of its own, such as an epsilon or
-//! a limit on radiance, breaks that.
+//! All factors are powers of two, so that scaling is exact in floating-point arithmetic: with the same random numbers,
+//! a correct submission reproduces the picture to the last bit. A constant in the submission, such as an epsilon or a
+//! limit on radiance, breaks the invariance.
 
 use arty::sampler::batch_seed;
 use glam::DVec3;
@@ -11,7 +11,7 @@ use host::protocol::{AnomalousSample, RenderJob, Rendered};
 use verdict::check::{Deviation, NumericalCause, Place, StabilityFinding};
 use verdict::replay::ReplayTarget;
 
-use super::{Asked, Found, cause_of};
+use super::{PartResult, StabilityContext, anomaly, cause_of, is_radiance};
 use crate::extreme::measure::mean_and_error;
 use crate::scenes::{changed, room};
 use harness::job::JobError;
@@ -19,38 +19,38 @@ use harness::job::JobError;
 /// Width and height of the picture.
 const SIZE: [u32; 2] = [16, 16];
 
-/// Tiles along each side of it.
+/// Number of tiles along each side of the picture.
 const TILES: u32 = 4;
 
-/// Renderings of one sample a pixel each: so each value of a rendering is one sample, and can be replayed.
+/// Number of renderings with one sample per pixel. Each pixel value is then one sample, which can be replayed.
 const BATCHES: u64 = 64;
 
-/// Relative differences up to this are nobody's matter.
+/// Relative differences that are tolerated.
 const TOLERATED: f64 = 1e-3;
 
-/// Standard errors that are noise, for submissions that do not give the same numbers twice. With 63 degrees of freedom one
-/// of 17 regions in 16 renderings is beyond them once in a hundred million submissions.
+/// Number of standard errors that count as noise, for submissions that are not repeatable. With 63 degrees of freedom,
+/// one of 17 regions in 16 renderings exceeds it once in a hundred million submissions.
 const NOISE: f64 = 8.0;
 
-/// Powers of two by which the scene is made larger, and by which its lights are made brighter.
+/// Exponents n of the factors 2ⁿ on lengths and on emission.
 const LAWS: [(i32, i32); 10] =
     [(-10, 0), (10, 0), (0, -10), (0, 10), (-20, 0), (20, 0), (-40, 0), (0, -80), (0, 60), (0, 90)];
 
-/// Powers of two up to this on either side are in the range that is graded.
+/// Exponents are graded from the negative of this up to this.
 const GRADED: i32 = 10;
 
-pub(super) fn find(asked: &Asked<'_>, process: &mut HostProcess) -> Found {
-    let base = render(asked, process, (0, 0))?;
+pub(super) fn find(stability: &StabilityContext<'_>, process: &mut HostProcess) -> PartResult {
+    let base = render(stability, process, (0, 0))?;
     let mut paths = base.batches.len() as u64 * u64::from(SIZE[0] * SIZE[1]);
-    let mut findings: Vec<StabilityFinding> = anomalies(asked, &base, (0, 0)).into_iter().collect();
+    let mut findings: Vec<StabilityFinding> = anomalies(stability, &base, (0, 0)).into_iter().collect();
     for law in LAWS {
         let (_, brighter) = law;
-        let seen = render(asked, process, law)?;
+        let seen = render(stability, process, law)?;
         paths += seen.batches.len() as u64 * u64::from(SIZE[0] * SIZE[1]);
-        // Where samples are not radiance, their mean is wrong for that reason.
-        let found = anomalies(asked, &seen, law).or_else(|| {
+        // Samples that are not radiance explain a wrong mean.
+        let found = anomalies(stability, &seen, law).or_else(|| {
             worst_region(&base, &seen, f64::from(brighter).exp2())
-                .map(|difference| describe(asked, &base, &seen, law, difference))
+                .map(|difference| describe(stability, &base, &seen, law, difference))
         });
         findings.extend(found);
     }
@@ -58,20 +58,20 @@ pub(super) fn find(asked: &Asked<'_>, process: &mut HostProcess) -> Found {
 }
 
 fn render(
-    asked: &Asked<'_>,
+    stability: &StabilityContext<'_>,
     process: &mut HostProcess,
     (larger, brighter): (i32, i32),
 ) -> Result<Rendered, JobError> {
     let scene = changed(&room(), f64::from(larger).exp2(), DVec3::ZERO, (brighter as f32).exp2());
     let scene = process.load(&scene)?;
-    let seeds = (0..BATCHES).map(|batch| batch_seed(asked.seed, batch)).collect();
-    process.render(&RenderJob::new(scene, asked.settings, SIZE, seeds, 1))
+    let seeds = (0..BATCHES).map(|batch| batch_seed(stability.seed, batch)).collect();
+    process.render(&RenderJob::new(scene, stability.settings, SIZE, seeds, 1))
 }
 
-/// A region with the relative difference of its mean.
+/// The relative difference of the mean of a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Difference {
-    /// The tile by column and row; none for the whole picture.
+    /// Column and row of the tile; `None` for the whole picture.
     tile: Option<[u32; 2]>,
     relative: f64,
 }
@@ -83,7 +83,8 @@ impl Difference {
     }
 }
 
-/// The region whose mean differs most, beyond what is tolerated and what is noise; the whole picture goes first.
+/// The whole picture if its mean differs significantly, or else the tile with the largest significant difference;
+/// `None` if there is no significant difference.
 fn worst_region(base: &Rendered, seen: &Rendered, factor: f64) -> Option<Difference> {
     let tiles = (0..TILES * TILES).map(|tile| Some([tile % TILES, tile / TILES]));
     let compare = |tile: Option<[u32; 2]>| {
@@ -103,23 +104,22 @@ fn worst_region(base: &Rendered, seen: &Rendered, factor: f64) -> Option<Differe
         .or_else(|| tiles.filter_map(compare).max_by(|a, b| a.relative.abs().total_cmp(&b.relative.abs())))
 }
 
-/// Samples that are not radiance.
-fn anomalies(asked: &Asked<'_>, seen: &Rendered, law: (i32, i32)) -> Option<StabilityFinding> {
+/// A finding if some samples are not radiance.
+fn anomalies(stability: &StabilityContext<'_>, seen: &Rendered, law: (i32, i32)) -> Option<StabilityFinding> {
     let first = seen.first_anomalies.first()?;
-    let value =
-        first.value.into_iter().find(|value| !(value.is_finite() && *value >= 0.0)).unwrap_or(f32::NAN);
+    let value = first.value.into_iter().find(|&value| !is_radiance(value)).unwrap_or(f32::NAN);
     Some(StabilityFinding {
         place: place(law),
         deviation: Deviation::Anomalies { non_finite: seen.non_finite, negative: seen.negative },
         likely_cause: cause_of(value),
         is_graded: is_graded(law),
-        first: Some(asked.anomaly(first, replay(asked, law))),
+        first: Some(anomaly(first, Some(replay(stability, law)))),
         replay: None,
     })
 }
 
 fn describe(
-    asked: &Asked<'_>,
+    stability: &StabilityContext<'_>,
     base: &Rendered,
     seen: &Rendered,
     law: (i32, i32),
@@ -137,7 +137,7 @@ fn describe(
         .find(|(_, _, a, b)| (b / factor - a).abs() > TOLERATED * a.abs().max(b / factor))
         .unwrap_or((0, 0, f64::NAN, f64::NAN));
     let sample = AnomalousSample {
-        seed: batch_seed(asked.seed, batch),
+        seed: batch_seed(stability.seed, batch),
         x: pixel % SIZE[0],
         y: pixel / SIZE[0],
         sample: 0,
@@ -156,12 +156,12 @@ fn describe(
         },
         likely_cause: cause(seen, law, difference),
         is_graded: is_graded(law),
-        first: Some(asked.anomaly(&sample, replay(asked, law))),
+        first: Some(anomaly(&sample, Some(replay(stability, law)))),
         replay: None,
     }
 }
 
-/// What most often does such a thing.
+/// The most frequent cause of such a difference.
 fn cause(seen: &Rendered, (larger, brighter): (i32, i32), difference: Difference) -> NumericalCause {
     if larger != 0 {
         let size = f64::from(larger).exp2() * room_size();
@@ -190,7 +190,7 @@ fn room_size() -> f64 {
     let vertices = |scene: &arty::scene::SceneDescription| -> Vec<_> {
         scene.meshes.iter().flat_map(|mesh| mesh.positions.clone()).collect()
     };
-    vertices(&room()).iter().fold(0.0, |most: f64, position| most.max(2.0 * f64::from(position.length())))
+    vertices(&room()).iter().fold(0.0, |max: f64, position| max.max(2.0 * f64::from(position.length())))
 }
 
 fn is_graded((larger, brighter): (i32, i32)) -> bool {
@@ -205,11 +205,11 @@ fn place(law: (i32, i32)) -> Place {
     }
 }
 
-fn replay(asked: &Asked<'_>, (larger, brighter): (i32, i32)) -> ReplayTarget {
+fn replay(stability: &StabilityContext<'_>, (larger, brighter): (i32, i32)) -> ReplayTarget {
     ReplayTarget {
         scale: f64::from(larger).exp2(),
         emission: (brighter as f32).exp2(),
-        ..asked.replay(ReplayTarget::ROOM, asked.settings, SIZE)
+        ..stability.replay(ReplayTarget::ROOM, stability.settings, SIZE)
     }
 }
 
@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_copies_differ_nowhere_and_clamped_ones_do() {
+    fn clamped_pictures_differ_and_exact_copies_do_not() {
         let base = rendered(noise);
         assert_eq!(worst_region(&base, &rendered(|b, p| 1024.0 * noise(b, p)), 1024.0), None);
         let clamped = worst_region(&base, &rendered(|b, p| (1024.0 * noise(b, p)).min(900.0)), 1024.0);
@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn other_random_numbers_are_no_difference() {
+    fn other_random_numbers_are_not_a_difference() {
         // A false alarm here would be one in ten million.
         let base = rendered(noise);
         for seed in 1..20 {
@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn black_pictures_are_alike() {
+    fn black_pictures_are_equal() {
         assert_eq!(worst_region(&rendered(|_, _| 0.0), &rendered(|_, _| 0.0), 1024.0), None);
         let appeared = worst_region(&rendered(|_, _| 0.0), &rendered(|_, _| 1.0), 1.0);
         assert!(appeared.is_some());

@@ -1,12 +1,12 @@
-//! **stability**: does the submission hold where numbers are small, large, or at an end?
+//! **stability**: is the submission numerically robust near the limits of single precision?
 //!
-//! Three things are looked at. [`laws`]: a scene that is made larger or brighter must give the same picture, or the same
-//! picture times a factor; with the same random numbers, and factors that are powers of two, a correct path tracer gives
-//! it to the last bit, so that little noise is in the way. [`pictures`]: scenes with a known answer that are awkward for
-//! floating-point numbers. [`densities`]: weights for densities at the ends of what single precision holds.
+//! Three properties are tested. [`laws`]: scaling or brightening a scene must give the same picture up to a factor.
+//! With the same random numbers and powers of two as factors, a correct path tracer reproduces it to the last bit, so
+//! that noise hardly matters. [`pictures`]: scenes with a known mean that are difficult in floating-point arithmetic.
+//! [`densities`]: MIS weights for densities near the limits of single precision.
 //!
-//! Points depend on what lies in a wide range, scales and brightnesses of a thousandth to a thousand and densities of
-//! 1e-12 to 1e12; what lies beyond is remarked on.
+//! A wide range is graded: scales and brightnesses of 1/1000 to 1000 and densities of 1e-12 to 1e12. Failures outside
+//! of this range are reported as remarks.
 
 mod densities;
 mod laws;
@@ -14,26 +14,25 @@ mod pictures;
 
 use arty::integrator::{Settings, Technique};
 use harness::host_process::HostProcess;
-use host::protocol::AnomalousSample;
 use verdict::check::{
-    Anomaly, CheckKind, Evidence, NumericalCause, Numerics, Reason, StabilityFinding, StabilityTest,
+    CheckKind, Evidence, NumericalCause, Numerics, Reason, StabilityFinding, StabilityTest,
 };
 use verdict::replay::ReplayTarget;
 use verdict::rubric::CheckSpec;
 
 use super::context::{anomaly, replay_of, settings_of};
-use super::{Check, GradeContext, JobError, Observation, Outcome};
+use super::{Check, CheckOutcome, GradeContext, JobError, Observation};
 
-/// What all parts need.
-struct Asked<'a> {
+/// The context that the three parts share.
+struct StabilityContext<'a> {
     context: &'a GradeContext<'a>,
     spec: &'a CheckSpec,
     settings: Settings,
     seed: u64,
 }
 
-/// Findings, and how many paths they took.
-type Found = Result<(Vec<StabilityFinding>, u64), JobError>;
+/// Findings of a part, and the number of paths traced.
+type PartResult = Result<(Vec<StabilityFinding>, u64), JobError>;
 
 pub(super) struct Stability;
 
@@ -46,17 +45,18 @@ impl Check for Stability {
         &[Technique::Nee, Technique::Mis]
     }
 
-    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<Outcome, JobError> {
-        let asked = Asked { context, spec, settings: settings_of(spec), seed: context.seed_of(spec) };
+    fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<CheckOutcome, JobError> {
+        let stability =
+            StabilityContext { context, spec, settings: settings_of(spec), seed: context.seed_of(spec) };
         let mut process = context.start()?;
-        type Part = fn(&Asked<'_>, &mut HostProcess) -> Found;
+        type Part = fn(&StabilityContext<'_>, &mut HostProcess) -> PartResult;
         let mut parts: Vec<Part> = vec![laws::find, pictures::find];
         if spec.technique == Technique::Mis {
             parts.push(densities::find);
         }
         let (mut findings, mut samples) = (Vec::new(), 0);
         for part in parts {
-            let (found, paths) = part(&asked, &mut process)?;
+            let (found, paths) = part(&stability, &mut process)?;
             findings.extend(found);
             samples += paths;
         }
@@ -76,17 +76,22 @@ impl Check for Stability {
     }
 }
 
-fn conclude(findings: Vec<StabilityFinding>, samples: u64) -> Outcome {
+fn conclude(findings: Vec<StabilityFinding>, samples: u64) -> CheckOutcome {
     let (graded, remarks): (Vec<StabilityFinding>, Vec<StabilityFinding>) =
         findings.into_iter().partition(|finding| finding.is_graded);
     let sum = |which: usize| graded.iter().map(|finding| finding.deviation.anomalies()[which]).sum();
     let numerics = Numerics { non_finite: sum(0), negative: sum(1), first: None };
     let reason = if graded.is_empty() { Reason::None } else { Reason::Bias };
     let findings = graded.into_iter().chain(remarks).collect();
-    Outcome::new(reason, Evidence::Stability(StabilityTest { findings }), samples).with(numerics)
+    CheckOutcome::new(reason, Evidence::Stability(StabilityTest { findings }), samples).with(numerics)
 }
 
-/// What most often returns a value that is not radiance.
+/// True for values that a correct estimator may return: finite and not negative.
+fn is_radiance(value: f32) -> bool {
+    value.is_finite() && value >= 0.0
+}
+
+/// The most frequent cause of a value that is not radiance.
 fn cause_of(value: f32) -> NumericalCause {
     if value.is_nan() {
         NumericalCause::InvalidOperation
@@ -97,13 +102,8 @@ fn cause_of(value: f32) -> NumericalCause {
     }
 }
 
-impl Asked<'_> {
-    /// A sample of a scene, with the path that shows it.
-    fn anomaly(&self, sample: &AnomalousSample, scene: ReplayTarget) -> Anomaly {
-        anomaly(sample, Some(scene))
-    }
-
-    /// A path in a scene of this name.
+impl StabilityContext<'_> {
+    /// Replay target of a path in the scene with this name.
     fn replay(&self, scene: &str, settings: Settings, size: [u32; 2]) -> ReplayTarget {
         let Settings { technique, max_bounces } = settings;
         let scene = scene.to_owned();
@@ -118,7 +118,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn remarks_cost_nothing_and_findings_do() {
+    fn graded_findings_cost_points_and_remarks_do_not() {
         let finding = |is_graded, [non_finite, negative]: [u64; 2]| StabilityFinding {
             place: Place::Unchanged,
             deviation: Deviation::Anomalies { non_finite, negative },

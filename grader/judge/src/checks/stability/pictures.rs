@@ -1,39 +1,39 @@
-//! Extreme scenes with known answers, through the submission's code.
+//! Extreme scenes with known means, rendered by the submission.
 
 use arty::sampler::batch_seed;
 use harness::host_process::HostProcess;
 use host::protocol::{AnomalousSample, RenderJob};
 use verdict::check::{Deviation, NumericalCause, Place, StabilityFinding};
 
-use super::{Asked, Found, cause_of};
+use super::{PartResult, StabilityContext, anomaly, cause_of, is_radiance};
 use crate::extreme::answers;
-use crate::extreme::measure::{self, Effort, findings};
+use crate::extreme::measure::{self, MinPaths, measure_all};
 use harness::job::JobError;
 
-/// Paths for each scene.
-const EFFORT: Effort = Effort(1 << 13);
+/// Minimum number of paths per scene.
+const MIN_PATHS: MinPaths = MinPaths(1 << 13);
 
-/// Pictures with more pixels than this say nothing about a submission: it is the framework that has to bear them.
-const MOST_PIXELS: u32 = 64;
+/// Maximum number of pixels: larger pictures test the framework, not the submission.
+const MAX_PIXELS: u32 = 64;
 
-/// Longer paths cost time and say nothing new.
-const MOST_BOUNCES: u32 = 400;
+/// Maximum number of bounces: longer paths take time without testing anything new.
+const MAX_BOUNCES: u32 = 400;
 
-/// Pixels of a submission may be a thousandth off where those of the framework are right to a millionth.
-const ALLOWED: f64 = 3e-3;
+/// Relative error that is tolerated in a submission, where the framework itself is far more accurate.
+const TOLERANCE: f64 = 3e-3;
 
-pub(super) fn find(asked: &Asked<'_>, process: &mut HostProcess) -> Found {
-    let extremes = answers::load(asked.context.workspace)?;
-    let technique = asked.settings.technique;
+pub(super) fn find(stability: &StabilityContext<'_>, process: &mut HostProcess) -> PartResult {
+    let extremes = answers::load(stability.context.workspace)?;
+    let technique = stability.settings.technique;
     let wanted = |answer: &answers::Answer| {
-        answer.size[0] * answer.size[1] <= MOST_PIXELS && answer.max_bounces <= MOST_BOUNCES
+        answer.size[0] * answer.size[1] <= MAX_PIXELS && answer.max_bounces <= MAX_BOUNCES
     };
-    let seen = findings(process, &extremes, technique, EFFORT, asked.seed, wanted)?;
+    let seen = measure_all(process, &extremes, technique, MIN_PATHS, stability.seed, wanted)?;
     let mut found = Vec::new();
     let mut paths = 0;
     for mut picture in seen {
         paths += picture.measured.paths;
-        picture.allowed = picture.allowed.max(ALLOWED + picture.measured.noise(picture.truth));
+        picture.allowed = picture.allowed.max(TOLERANCE + picture.measured.noise(picture.truth));
         if picture.is_right() {
             continue;
         }
@@ -41,26 +41,27 @@ pub(super) fn find(asked: &Asked<'_>, process: &mut HostProcess) -> Found {
         let Some(extreme) = extreme else { continue };
         let suspect = match &picture.measured.first {
             Some(first) => Some(first.clone()),
-            None => first_black(asked, process, extreme, &picture)?,
+            None => first_black(stability, process, extreme, &picture)?,
         };
-        found.push(describe(asked, extreme, &picture, suspect));
+        found.push(describe(stability, extreme, &picture, suspect));
     }
     Ok((found, paths))
 }
 
-/// The first sample that is black, of as many as are taken one by one: what most often makes a mean too small.
+/// The first black sample of 64 renderings with one sample per pixel, since black samples are the most frequent cause
+/// of a mean that is too small. `None` if the mean is not too small or no sample is black.
 fn first_black(
-    asked: &Asked<'_>,
+    stability: &StabilityContext<'_>,
     process: &mut HostProcess,
-    extreme: &answers::Extreme,
-    picture: &measure::Finding,
+    extreme: &answers::ExtremeScene,
+    picture: &measure::ExtremeSceneResult,
 ) -> Result<Option<AnomalousSample>, JobError> {
     if picture.measured.mean >= picture.truth {
         return Ok(None);
     }
     let scene = process.load(&extreme.description)?;
     let width = picture.size[0];
-    let seeds: Vec<u64> = (0..64).map(|batch| batch_seed(asked.seed, batch)).collect();
+    let seeds: Vec<u64> = (0..64).map(|batch| batch_seed(stability.seed, batch)).collect();
     let job = RenderJob::new(scene, picture.settings, picture.size, seeds.clone(), 1);
     let rendered = process.render(&job)?;
     let mut all = rendered
@@ -79,12 +80,12 @@ fn first_black(
 }
 
 fn describe(
-    asked: &Asked<'_>,
-    extreme: &answers::Extreme,
-    picture: &measure::Finding,
+    stability: &StabilityContext<'_>,
+    extreme: &answers::ExtremeScene,
+    picture: &measure::ExtremeSceneResult,
     suspect: Option<AnomalousSample>,
 ) -> StabilityFinding {
-    let measure::Finding { scene, truth, measured, settings, size, judged, .. } = picture;
+    let measure::ExtremeSceneResult { scene, truth, measured, settings, size, is_graded, .. } = picture;
     let deviation = if measured.is_clean() {
         let because = extreme.answer.because.clone();
         Deviation::Mean { found: measured.mean.into(), expected: (*truth).into(), because }
@@ -92,20 +93,20 @@ fn describe(
         Deviation::Anomalies { non_finite: measured.non_finite, negative: measured.negative }
     };
     let likely_cause = match suspect.as_ref().map(|sample| sample.value[1]) {
-        Some(value) if !(value.is_finite() && value >= 0.0) => cause_of(value),
+        Some(value) if !is_radiance(value) => cause_of(value),
         Some(_) => NumericalCause::HiddenNanOrOffset,
         None if measured.mean < *truth => NumericalCause::Limit,
         None => NumericalCause::LeakOrDoubleCount,
     };
-    let replay = asked.replay(scene, *settings, *size);
+    let replay = stability.replay(scene, *settings, *size);
     StabilityFinding {
         place: Place::ExtremeScene(scene.clone()),
         deviation,
         likely_cause,
-        is_graded: *judged,
-        first: suspect.as_ref().map(|sample| asked.anomaly(sample, replay.clone())),
+        is_graded: *is_graded,
+        first: suspect.as_ref().map(|sample| anomaly(sample, Some(replay.clone()))),
         replay: suspect
             .is_none()
-            .then(|| verdict::replay::ReplayTarget { seed: batch_seed(asked.seed, 0), ..replay }),
+            .then(|| verdict::replay::ReplayTarget { seed: batch_seed(stability.seed, 0), ..replay }),
     }
 }

@@ -1,20 +1,20 @@
-//! Colour spaces of FLIP: linear sRGB, YCxCz, and Lab with the Hunt adjustment. White is that of linear (1, 1, 1).
+//! Colour spaces of FLIP: linear sRGB, YCxCz, and L*a*b* with the Hunt adjustment. White is linear (1, 1, 1).
 
-/// Linear sRGB to XYZ (D65), with the fractions that the authors give.
+/// Linear sRGB to XYZ (D65), with the authors' coefficients.
 const RGB_TO_XYZ: [[f64; 3]; 3] = [
     [10_135_552.0 / 24_577_794.0, 8_788_810.0 / 24_577_794.0, 4_435_075.0 / 24_577_794.0],
     [2_613_072.0 / 12_288_897.0, 8_788_810.0 / 12_288_897.0, 887_015.0 / 12_288_897.0],
     [1_425_312.0 / 73_733_382.0, 8_788_810.0 / 73_733_382.0, 70_074_185.0 / 73_733_382.0],
 ];
 
-/// Its inverse.
+/// XYZ (D65) to linear sRGB.
 const XYZ_TO_RGB: [[f64; 3]; 3] = [
     [3.241_003_275, -1.537_398_934, -0.498_615_861],
     [-0.969_224_334, 1.875_930_071, 0.041_554_224],
     [0.055_639_423, -0.204_011_202, 1.057_148_933],
 ];
 
-/// The luminance of a linear colour: its Y.
+/// Luminance Y of a linear colour.
 pub(super) fn luminance(color: [f64; 3]) -> f64 {
     dot(RGB_TO_XYZ[1], color)
 }
@@ -25,7 +25,7 @@ pub(super) fn to_ycxcz(color: [f64; 3]) -> [f64; 3] {
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }
 
-/// YCxCz to linear sRGB, cut to [0, 1].
+/// YCxCz to linear sRGB, clamped to [0, 1].
 pub(super) fn from_ycxcz([lightness, cx, cz]: [f64; 3]) -> [f64; 3] {
     let y = (lightness + 16.0) / 116.0;
     let relative = [y + cx / 500.0, y, y - cz / 200.0];
@@ -33,7 +33,7 @@ pub(super) fn from_ycxcz([lightness, cx, cz]: [f64; 3]) -> [f64; 3] {
     XYZ_TO_RGB.map(|row| dot(row, xyz).clamp(0.0, 1.0))
 }
 
-/// Linear sRGB to Lab, a and b scaled by lightness: we see colour less well in the dark (Hunt 1952).
+/// Linear sRGB to L*a*b*, with a* and b* scaled by lightness, since colourfulness falls with luminance (Hunt 1952).
 pub(super) fn to_hunt_lab(color: [f64; 3]) -> [f64; 3] {
     const DELTA: f64 = 6.0 / 29.0;
     let curve = |t: f64| {
@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colours_come_back_and_white_is_white() {
+    fn colour_conversions_round_trip_and_preserve_white() {
         for color in [[0.2, 0.5, 0.9], [1.0; 3], [0.0; 3]] {
             let back = from_ycxcz(to_ycxcz(color));
             assert!(color.iter().zip(back).all(|(a, b)| (a - b).abs() < 1e-6), "{color:?} {back:?}");

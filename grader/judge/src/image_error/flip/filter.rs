@@ -1,9 +1,9 @@
-//! Convolutions of FLIP. All of its kernels are sums of products of a function of x and one of y, so each is two
-//! passes of one dimension; beyond its edges a picture goes on with its outermost pixels.
+//! Convolutions of FLIP. All kernels are sums of separable kernels, so that each is two one-dimensional passes.
+//! Pictures are extended by their border pixels.
 
 use std::f64::consts::PI;
 
-/// One value a pixel.
+/// A single-channel image.
 #[derive(Clone, Debug)]
 pub(super) struct Plane {
     pub(super) width: usize,
@@ -32,7 +32,7 @@ impl Plane {
         Self { values, ..*self }
     }
 
-    /// Convolves each column, all of them at once: rows are added up.
+    /// Convolves all columns at once, by summing rows.
     fn along_columns(&self, kernel: &[f64]) -> Self {
         let radius = (kernel.len() / 2) as isize;
         let mut values = vec![0.0; self.values.len()];
@@ -46,12 +46,12 @@ impl Plane {
     }
 }
 
-/// Adds `weight` times the values that `others` begins with.
+/// Adds `weight` times the first values of `others`.
 fn add(sums: &mut [f64], weight: f64, others: &[f64]) {
     sums.iter_mut().zip(others).for_each(|(sum, other)| *sum += weight * other);
 }
 
-/// What the eye makes of a channel of YCxCz: a sum of Gaussians a·√(π/b)·exp(−π²d²/b), d in degrees, normalised.
+/// Contrast sensitivity of a channel of YCxCz: a sum of Gaussians a·√(π/b)·exp(−π²d²/b), d in degrees, normalised.
 #[derive(Clone, Copy)]
 pub(super) struct Sensitivity(&'static [(f64, f64)]);
 
@@ -62,11 +62,11 @@ pub(super) const SENSITIVITIES: [Sensitivity; 3] = [
     Sensitivity(&[(34.1, 0.04), (13.5, 0.025)]),
 ];
 
-/// The widest b, which sets the radius of all three.
+/// The largest b, which determines the radius of all kernels.
 const WIDEST: f64 = 0.04;
 
-/// Filters a channel for an eye that sees a number of pixels within a degree.
-pub(super) fn see(plane: &Plane, Sensitivity(gaussians): Sensitivity, pixels_per_degree: f64) -> Plane {
+/// Filters a channel with a contrast sensitivity.
+pub(super) fn perceive(plane: &Plane, Sensitivity(gaussians): Sensitivity, pixels_per_degree: f64) -> Plane {
     let radius = (3.0 * (WIDEST / (2.0 * PI * PI)).sqrt() * pixels_per_degree).ceil() as i32;
     let mut total = 0.0;
     let mut sum = vec![0.0; plane.values.len()];
@@ -83,7 +83,7 @@ pub(super) fn see(plane: &Plane, Sensitivity(gaussians): Sensitivity, pixels_per
     Plane { values, ..*plane }
 }
 
-/// What the eye catches on.
+/// A feature that the eye detects.
 #[derive(Clone, Copy)]
 pub(super) enum Feature {
     /// Steps: the first derivative of a Gaussian.
@@ -92,7 +92,7 @@ pub(super) enum Feature {
     Point,
 }
 
-/// The strength of a feature in each pixel, over both directions. The detectors are 0.082° wide.
+/// Magnitude of a feature in each pixel, over both directions. The detectors are 0.082° wide.
 pub(super) fn features(plane: &Plane, feature: Feature, pixels_per_degree: f64) -> Vec<f64> {
     let deviation = 0.5 * 0.082 * pixels_per_degree;
     let radius = (3.0 * deviation).ceil() as i32;
@@ -106,7 +106,7 @@ pub(super) fn features(plane: &Plane, feature: Feature, pixels_per_degree: f64) 
             Feature::Point => (x * x / (deviation * deviation) - 1.0) * gauss,
         })
         .collect();
-    // Positive and negative weights of the whole kernel sum to 1 and −1. Their sign depends on one coordinate only.
+    // Normalise the positive weights to 1 and the negative ones to −1. The sign depends on one coordinate only.
     let sum_across: f64 = across.iter().sum();
     let sum_of = |sign: f64| along.iter().map(|weight| (sign * weight).max(0.0)).sum::<f64>() * sum_across;
     let (positive, negative) = (sum_of(1.0), sum_of(-1.0));

@@ -1,33 +1,32 @@
-//! HDR-FLIP: how different two pictures look to someone who flips between them.
+//! HDR-FLIP: the difference that a viewer perceives when alternating between two pictures.
 //!
 //! Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild: "FLIP: A Difference Evaluator for Alternating
 //! Images", HPG 2020; Andersson, Nilsson, Shirley, Akenine-Möller: "Visualizing Errors in Rendered High Dynamic Range
-//! Images", Eurographics Short Papers 2021. Written from the papers; the one crate that binds the authors' program
-//! compares pictures of 8 bits only, and needs a C++ compiler.
+//! Images", Eurographics Short Papers 2021. Implemented from the papers: the existing Rust bindings of the authors'
+//! program compare 8-bit pictures only and need a C++ compiler.
 
 mod color;
 mod filter;
 
 use color::{from_ycxcz, hyab, luminance, to_hunt_lab, to_ycxcz};
-use filter::{Feature, Plane, SENSITIVITIES, features, see};
+use filter::{Feature, Plane, SENSITIVITIES, features, perceive};
 
-/// Pixels in a degree of what the viewer sees: 0.7 m before a screen 0.7 m wide with 3840 columns.
+/// Pixels per degree of visual angle, for a viewer 0.7 m from a screen that is 0.7 m and 3840 pixels wide.
 pub const PIXELS_PER_DEGREE: f64 = 0.7 * 3840.0 / 0.7 * std::f64::consts::PI / 180.0;
 
-/// How different two pictures look.
+/// The HDR-FLIP difference of two pictures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HdrFlip {
-    /// The difference of each pixel, from 0 (none) to 1.
+    /// Difference of each pixel, from 0 (none) to 1.
     pub map: Vec<f64>,
-    /// Its mean.
+    /// Mean of the map.
     pub mean: f64,
-    /// The exposures that were looked at, in stops: the first, the last, and how many.
+    /// The exposures compared, in stops: the first, the last and their number.
     pub exposures: (f64, f64, usize),
 }
 
-/// Compares two linear pictures of any range: the largest difference over all exposures at which someone may look at
-/// the reference. Values that are negative or not finite count as 0. `None` without pixels, or if the numbers of
-/// pixels are not `width · height`.
+/// Compares two linear HDR pictures: the maximum difference over a range of exposures. Values that are negative or not
+/// finite count as 0. `None` if there are no pixels, or not `width · height`.
 pub fn hdr_flip(
     picture: &[[f64; 3]],
     reference: &[[f64; 3]],
@@ -47,23 +46,23 @@ pub fn hdr_flip(
             pixels.iter().map(|pixel| pixel.map(|value| tone_map(value, exposure))).collect()
         };
         let difference = flip(&shown(picture), &shown(reference), width, height);
-        map.iter_mut().zip(difference).for_each(|(most, value)| *most = most.max(value));
+        map.iter_mut().zip(difference).for_each(|(max, value)| *max = max.max(value));
     }
     let mean = map.iter().sum::<f64>() / count as f64;
     Some(HdrFlip { map, mean, exposures: (first, last, steps) })
 }
 
-/// The ACES curve of Narkowicz, (k₀x² + k₁x) / (k₂x² + k₃x + k₄), with the factor 0.6 before it.
+/// Narkowicz' fit of the ACES tone curve, (k₀x² + k₁x) / (k₂x² + k₃x + k₄), with a factor of 0.6 on x.
 const ACES: [f64; 5] = [0.6 * 0.6 * 2.51, 0.6 * 0.03, 0.6 * 0.6 * 2.43, 0.6 * 0.59, 0.14];
 
-/// A value as it is shown at an exposure in stops, in [0, 1].
+/// Tone-maps a value at an exposure in stops, to [0, 1].
 fn tone_map(value: f64, exposure: f64) -> f64 {
     let x = if value.is_finite() { value.max(0.0) * exposure.exp2() } else { 0.0 };
     let [k0, k1, k2, k3, k4] = ACES;
     ((k0 * x * x + k1 * x) / (k2 * x * x + k3 * x + k4)).clamp(0.0, 1.0)
 }
 
-/// The exposures, in stops, that show the brightest pixel and the median one at 0.85 of white.
+/// The exposures, in stops, that map the brightest pixel and the median pixel to 0.85.
 fn exposures(reference: &[[f64; 3]]) -> (f64, f64) {
     const SHOWN: f64 = 0.85;
     let [k0, k1, k2, k3, k4] = ACES;
@@ -75,21 +74,22 @@ fn exposures(reference: &[[f64; 3]]) -> (f64, f64) {
         .map(|y| if y.is_finite() { y.max(0.0) } else { 0.0 })
         .collect();
     values.sort_unstable_by(f64::total_cmp);
-    // Half of a picture may be black: no exposure would show that at 0.85.
-    let (median, most) =
+    // The median may be black, which no exposure maps to 0.85.
+    let (median, max) =
         (quantile_half(&values).max(f64::EPSILON), values[values.len() - 1].max(f64::EPSILON));
-    ((bright / most).log2(), (bright / median).log2())
+    ((bright / max).log2(), (bright / median).log2())
 }
 
-/// The median of a sorted list that is not empty.
+/// The median of a sorted, non-empty list.
 fn quantile_half(sorted: &[f64]) -> f64 {
     let middle = sorted.len() / 2;
     if sorted.len() % 2 == 1 { sorted[middle] } else { 0.5 * (sorted[middle - 1] + sorted[middle]) }
 }
 
-/// FLIP of two linear pictures with values in [0, 1].
+/// The FLIP map of two linear pictures with values in [0, 1].
 fn flip(picture: &[[f64; 3]], reference: &[[f64; 3]], width: usize, height: usize) -> Vec<f64> {
-    let (seen, expected) = (Seen::new(picture, width, height), Seen::new(reference, width, height));
+    let (seen, expected) =
+        (PerceivedImage::new(picture, width, height), PerceivedImage::new(reference, width, height));
     let combined = (0..picture.len()).map(|pixel| {
         let difference = |a: &[f64], b: &[f64]| (a[pixel] - b[pixel]).abs();
         let feature =
@@ -100,26 +100,26 @@ fn flip(picture: &[[f64; 3]], reference: &[[f64; 3]], width: usize, height: usiz
     combined.collect()
 }
 
-/// What an eye makes of a picture.
-struct Seen {
-    /// Lab with the Hunt adjustment.
+/// A picture after the model of human perception.
+struct PerceivedImage {
+    /// Colours in L*a*b* with the Hunt adjustment.
     colors: Vec<[f64; 3]>,
     edges: Vec<f64>,
     points: Vec<f64>,
 }
 
-impl Seen {
+impl PerceivedImage {
     fn new(picture: &[[f64; 3]], width: usize, height: usize) -> Self {
         let opponent: Vec<[f64; 3]> = picture.iter().map(|&color| to_ycxcz(color)).collect();
         let plane = |values: Vec<f64>| Plane { width, height, values };
         let filtered: [Plane; 3] = std::array::from_fn(|channel| {
             let values = opponent.iter().map(|pixel| pixel[channel]).collect();
-            see(&plane(values), SENSITIVITIES[channel], PIXELS_PER_DEGREE)
+            perceive(&plane(values), SENSITIVITIES[channel], PIXELS_PER_DEGREE)
         });
         let color = |pixel: usize| {
             to_hunt_lab(from_ycxcz(std::array::from_fn(|channel| filtered[channel].values[pixel])))
         };
-        // Features are looked for before filtering, on a scale from 0 to 1.
+        // Features are detected before filtering, on a scale from 0 to 1.
         let gray = plane(opponent.iter().map(|pixel| (pixel[0] + 16.0) / 116.0).collect());
         Self {
             colors: (0..picture.len()).map(color).collect(),
@@ -129,19 +129,19 @@ impl Seen {
     }
 }
 
-/// The difference of two colours from 0 to 1, of which 0.95 are for the smaller differences.
+/// Difference of two colours from 0 to 1, where the smaller differences use the range up to 0.95.
 fn color_difference(a: [f64; 3], b: [f64; 3]) -> f64 {
     const EXPONENT: f64 = 0.7;
     const KNEE: f64 = 0.4;
     const SHARE: f64 = 0.95;
     let (green, blue) = (to_hunt_lab([0.0, 1.0, 0.0]), to_hunt_lab([0.0, 0.0, 1.0]));
-    let most = hyab(green, blue).powf(EXPONENT);
-    let knee = KNEE * most;
+    let max = hyab(green, blue).powf(EXPONENT);
+    let knee = KNEE * max;
     let difference = hyab(a, b).powf(EXPONENT);
     if difference < knee {
         difference * SHARE / knee
     } else {
-        SHARE + (difference - knee) / (most - knee) * (1.0 - SHARE)
+        SHARE + (difference - knee) / (max - knee) * (1.0 - SHARE)
     }
 }
 

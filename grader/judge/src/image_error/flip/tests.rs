@@ -3,7 +3,7 @@ use super::*;
 /// Width and height of the pictures below.
 const SIZE: (usize, usize) = (48, 32);
 
-/// A blob and a step; and the same with a ripple and one dot that is far too bright.
+/// A test picture with a ripple and one firefly, and its reference: a blob and a step.
 fn pictures() -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
     let (width, height) = SIZE;
     let mut reference = Vec::new();
@@ -21,7 +21,7 @@ fn pictures() -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
 }
 
 #[test]
-fn the_values_are_those_of_the_authors_program() {
+fn values_match_the_authors_implementation() {
     // flip-evaluator 1.7 (Python), `evaluate(reference, test, "HDR", inputsRGB=False, applyMagma=False)`.
     let (picture, reference) = pictures();
     let flip = hdr_flip(&picture, &reference, SIZE.0, SIZE.1).expect("the pictures have pixels");
@@ -45,7 +45,7 @@ fn the_values_are_those_of_the_authors_program() {
 }
 
 #[test]
-fn plain_colours_differ_as_the_authors_program_has_it() {
+fn uniform_colours_match_the_authors_implementation() {
     let flip = |a: [f64; 3], b: [f64; 3]| super::flip(&[a; 81], &[b; 81], 9, 9)[40];
     for (a, b, expected) in [
         ([0.0, 1.0, 0.0], [0.0, 0.0, 1.0], 1.0),
@@ -58,7 +58,7 @@ fn plain_colours_differ_as_the_authors_program_has_it() {
 }
 
 #[test]
-fn equal_pictures_do_not_differ_and_broken_ones_do_no_harm() {
+fn equal_pictures_have_no_difference_and_invalid_values_count_as_black() {
     let (_, reference) = pictures();
     let same = hdr_flip(&reference, &reference, SIZE.0, SIZE.1).expect("it has pixels");
     assert_eq!(same.mean, 0.0);

@@ -10,7 +10,7 @@ use arty::scene::Scene;
 use super::Context;
 use super::transport::{floor_below_points, furnace};
 use crate::limits::sweep::{Point, Series, Sweep, decades};
-use judge::extreme::measure::Effort;
+use judge::extreme::measure::MinPaths;
 use verdict::error::Result;
 
 /// Costs have no limit: the summary shows how fast they grow.
@@ -66,7 +66,7 @@ pub(super) fn lights(context: &Context<'_>) -> Result<Sweep> {
     let settings = Settings { technique: Technique::Mis, max_bounces: 1 };
     let mut points = Vec::new();
     for count in decades(0, 6) {
-        let measured = context.measure(&floor_below_points(count as usize), settings, Effort(1 << 17))?;
+        let measured = context.measure(&floor_below_points(count as usize), settings, MinPaths(1 << 17))?;
         let y = 1e6 * measured.seconds / measured.paths as f64;
         points.push(Point { x: count, y, anomalies: measured.non_finite, ..Point::default() });
     }
@@ -88,7 +88,7 @@ pub(super) fn bounces(context: &Context<'_>) -> Result<Sweep> {
     let (mut cost, mut errors) = (Vec::new(), Vec::new());
     for count in decades(0, 9) {
         let settings = Settings { technique: Technique::Mis, max_bounces: count as u32 };
-        let measured = context.measure(&scene, settings, Effort(1 << 16))?;
+        let measured = context.measure(&scene, settings, MinPaths(1 << 16))?;
         let y = 1e6 * measured.seconds / measured.paths as f64;
         let anomalies = measured.non_finite + measured.negative;
         cost.push(Point { x: count, y, anomalies, ..Point::default() });

@@ -10,7 +10,7 @@ use arty::scene::SceneDescription;
 use super::sweep::Sweep;
 use harness::build::SubmissionProgram;
 use harness::host_process::HostProcess;
-use judge::extreme::measure::{Effort, Measured, measure};
+use judge::extreme::measure::{Measurement, MinPaths, measure};
 use verdict::error::Result;
 
 /// What sweeps are measured with.
@@ -20,7 +20,7 @@ pub struct Context<'a> {
     /// Seed of all random numbers.
     pub seed: u64,
     /// Paths for each point where noise matters.
-    pub effort: Effort,
+    pub effort: MinPaths,
 }
 
 /// Measures one sweep.
@@ -44,7 +44,7 @@ pub const SWEEPS: [(&str, Measure); 12] = [
 
 impl Context<'_> {
     /// Renders a scene at 8 × 8 pixels.
-    fn measure(&self, scene: &SceneDescription, settings: Settings, effort: Effort) -> Result<Measured> {
+    fn measure(&self, scene: &SceneDescription, settings: Settings, effort: MinPaths) -> Result<Measurement> {
         let mut process = HostProcess::start(self.program, rayon::current_num_threads())?;
         let measured = process
             .load(scene)

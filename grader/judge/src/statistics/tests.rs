@@ -1,14 +1,14 @@
-//! Tests of the grader's own arithmetic at the ends of what numbers can be: right or refused, and never NaN.
+//! Tests of the grader's own arithmetic near the limits of floating-point numbers: results are right, and never NaN.
 
 use super::batches::Batches;
-use super::bias::{Comparison, Expected, all_of, smallest_of};
+use super::bias::{Comparison, Expected, combined_p_value, min_p_value};
 use super::regions::{pyramid, weighted_image};
-use super::sequential::{Decision, Demand, Judgement, LOOKS, Question, judge};
+use super::sequential::{Decision, Judgement, LOOKS, SampleRequest, SequentialTest, judge};
 
 const SIZE: u32 = 8;
 const PIXELS: usize = (SIZE * SIZE) as usize;
 
-/// What an estimator should give whose samples have this mean and this deviation.
+/// The expectation for an estimator whose samples have this mean, standard deviation and skewness.
 fn expected(mean: f64, deviation: f64, skewness: f64) -> Expected {
     Expected {
         mean: vec![[mean; 3]; PIXELS],
@@ -21,7 +21,7 @@ fn expected(mean: f64, deviation: f64, skewness: f64) -> Expected {
 fn decide(expected: &Expected, mut pixel: impl FnMut(u64, usize) -> f32) -> Judgement {
     let mut regions = pyramid(SIZE, SIZE);
     regions.push(weighted_image(expected));
-    let question = Question {
+    let test = SequentialTest {
         expected,
         regions: &regions,
         decisive: regions.len() - 1,
@@ -30,14 +30,14 @@ fn decide(expected: &Expected, mut pixel: impl FnMut(u64, usize) -> f32) -> Judg
         seed: 1,
         looks: LOOKS.len(),
     };
-    let render = |demand: &Demand| {
+    let render = |request: &SampleRequest| {
         let mut batch = |&seed: &u64| (0..PIXELS).map(|index| [pixel(seed, index); 3]).collect();
-        Ok::<_, ()>(demand.seeds.iter().map(&mut batch).collect())
+        Ok::<_, ()>(request.seeds.iter().map(&mut batch).collect())
     };
-    judge(&question, render).expect("it cannot fail")
+    judge(&test, render).expect("it cannot fail")
 }
 
-/// All numbers of a comparison are numbers; those of an infinite difference may be infinite.
+/// Asserts that no number of a comparison is NaN. Those of an infinite difference may be infinite.
 fn assert_no_nan(comparison: &Comparison) {
     for value in [
         comparison.difference,
@@ -63,7 +63,7 @@ fn decision(expected: &Expected, pixel: impl FnMut(u64, usize) -> f32) -> Decisi
 }
 
 #[test]
-fn constant_images_without_any_variance_are_decided() {
+fn images_without_variance_are_decided() {
     for value in [1e-38f32, 1e-20, 1.0, 1e20, 1e38] {
         let exact = expected(f64::from(value), 0.0, 0.0);
         assert_eq!(decision(&exact, |_, _| value), Decision::Unbiased, "{value:e}");
@@ -81,10 +81,10 @@ fn black_images_are_right_where_black_is_expected_and_wrong_elsewhere() {
 }
 
 #[test]
-fn one_firefly_is_noise_and_never_a_pass() {
+fn one_firefly_is_inconclusive() {
     let expected = expected(1.0, 0.1, 0.0);
     for firefly in [1e10f32, 1e30, f32::MAX] {
-        // One pixel of the first batch, whatever is asked for.
+        // One pixel of the first batch, in every request.
         let mut first = None;
         let decision = decision(&expected, |seed, pixel| {
             let first = *first.get_or_insert(seed);
@@ -95,7 +95,7 @@ fn one_firefly_is_noise_and_never_a_pass() {
 }
 
 #[test]
-fn few_batches_and_ten_million_samples_are_counted_right() {
+fn few_batches_of_ten_million_samples_are_counted_correctly() {
     let regions = pyramid(SIZE, SIZE);
     let expected = expected(1.0, 0.5, 2.0);
     for count in [1, 2, 3] {
@@ -108,7 +108,7 @@ fn few_batches_and_ten_million_samples_are_counted_right() {
         for region in regions.iter().chain([&weighted_image(&expected)]) {
             let comparison = Comparison::new(&batches, &expected, region);
             assert_no_nan(&comparison);
-            // A difference of a standard error or two of so few batches says nothing.
+            // A difference of one or two standard errors of so few batches is not significant.
             assert!(comparison.p_value() > 1e-3 || count == 1, "{count}: {comparison:?}");
         }
     }
@@ -117,7 +117,7 @@ fn few_batches_and_ten_million_samples_are_counted_right() {
 }
 
 #[test]
-fn expectations_of_any_magnitude_give_weights_that_are_numbers() {
+fn expectations_of_any_magnitude_give_finite_weights() {
     for mean in [0.0, 1e-45, 1e-30, 1.0, 1e30, 3e38] {
         for deviation in [0.0, 1e-3, 1.0, 1e6] {
             let region = weighted_image(&expected(mean, deviation * mean, 1.0));
@@ -132,8 +132,8 @@ fn expectations_of_any_magnitude_give_weights_that_are_numbers() {
 fn p_values_stay_between_zero_and_one() {
     for p in [0.0, f64::MIN_POSITIVE, 1e-300, 0.5, 1.0] {
         for count in [1, 64, 100_000] {
-            assert!((0.0..=1.0).contains(&smallest_of(count, p)), "{p:e}, {count}");
-            assert!((0.0..=1.0).contains(&all_of(&vec![p; count.min(64)])), "{p:e}, {count}");
+            assert!((0.0..=1.0).contains(&min_p_value(count, p)), "{p:e}, {count}");
+            assert!((0.0..=1.0).contains(&combined_p_value(&vec![p; count.min(64)])), "{p:e}, {count}");
         }
     }
 }
