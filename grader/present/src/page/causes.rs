@@ -14,7 +14,7 @@ pub(super) fn section(report: &Report) -> Markup {
                 @for diagnosis in &report.diagnosis {
                     @let (seen, hint) = (seen(report, diagnosis), hint(&diagnosis.cause));
                     h3 { (heading(diagnosis)) }
-                    @if !seen.is_empty() { p { "Seen: " (seen) } }
+                    @if !seen.is_empty() { p { "Observed: " (seen) } }
                     @if !hint.is_empty() { p { "Hint: " (hint) } }
                 }
             }

@@ -30,11 +30,11 @@ pub(super) fn tasks(report: &Report) -> Markup {
 fn advice(task: &TaskResult, report: &Report) -> Markup {
     let Some(&wrong) = report.lacking(&task.id).first() else {
         let state = words::task_state(task);
-        return html! { @if state.is_empty() { "nothing is missing" } @else { (state) } };
+        return html! { @if state.is_empty() { "full points" } @else { (state) } };
     };
     html! {
         (words::explanation(wrong)) "."
-        @if wrong.verdict == Verdict::Inconclusive { " Reduce the noise first: " } @else { " Fix this first: " }
+        @if wrong.verdict == Verdict::Inconclusive { " Reduce the noise first. Re-run: " } @else { " Fix this first. Re-run: " }
         code { (words::repeat_command(report, &wrong.id)) }
     }
 }
@@ -47,7 +47,7 @@ pub(super) fn explanations(report: &Report) -> Markup {
                 summary { "Explanation: " (explanation.name) }
                 @match &explanation.text {
                     Some(text) => pre { (text) },
-                    None => p { "This is not a text: open the file itself (" (count(explanation.bytes, "byte")) ", BLAKE3 " code { (explanation.hash) } ")." }
+                    None => p { "This is not a text file; open it directly (" (count(explanation.bytes, "byte")) ", BLAKE3 " code { (explanation.hash) } ")." }
                 }
             }
         }
@@ -79,8 +79,7 @@ pub(super) fn checks(report: &Report, edition: Edition) -> Markup {
         }
         @if let Edition::Student { concealed, passed } = edition && concealed > 0 {
             p { (count(concealed, "check")) " in scenes that are not handed out " @if concealed == 1 { "is" } @else { "are" }
-                " not shown; " (passed) " passed. They ask for nothing that the others do not: a submission that is right in every \
-                scene passes them." }
+                " not shown; " (passed) " passed. They test nothing new: a submission that is correct in every scene passes them." }
         }
     }
 }
@@ -90,7 +89,7 @@ fn table(report: &Report, checks: &[&CheckResult]) -> Markup {
         div.scroll { table.cards {
             thead { tr {
                 th { "check" } th { "verdict" } th { "why" } th.number { "error" } th.number { "99 % interval" }
-                th.number title="the smallest relative error of the whole image that would have been found" { "detectable" }
+                th.number title="the smallest relative error of the whole image that this check would have detected" { "detectable" }
                 th.number { "samples" } th.number { "seconds" }
             } }
             tbody { @for check in checks { (row(report, check)) } }
@@ -120,7 +119,7 @@ fn row(report: &Report, check: &CheckResult) -> Markup {
             td {
                 (words::explanation(check))
                 @if let Some(Evidence::Efficiency(noise)) = &check.evidence && !noise.ratios.is_empty() {
-                    br; span.soft { "variance relative to the solution's: " (words::variances(noise)) }
+                    br; span.soft { "variance relative to each technique of the solution: " (words::variances(noise)) }
                 }
                 @for remark in words::remarks_with_replay(check, &report.submission.path) { br; span.soft { "Remark: " (remark) } }
                 details.again {
@@ -158,7 +157,7 @@ pub(super) fn skipped(report: &Report) -> Markup {
         @if !report.skipped.is_empty() {
             h2 { "Skipped checks" }
             details {
-                summary { (count(report.skipped.len(), "check")) " cannot judge anything, whatever is submitted" }
+                summary { (count(report.skipped.len(), "check")) " do not apply to their scene, whatever is submitted" }
                 ul { @for entry in &report.skipped {
                     li { (entry.kind) " with " (entry.technique) ", " (entry.scene) ": " (words::why_not(&entry.why)) }
                 } }
@@ -195,7 +194,7 @@ pub(super) fn provenance(report: &Report) -> Markup {
                     tr { th { "line " (finding.line) } td { code { (finding.what) } ": " (finding.why) } }
                 }
                 tr { th { "seconds" } td { (format!("compiling {:.1}, running {:.1}, total {:.1}", cost.build, cost.run, cost.total)) } }
-                @if !numerics.is_empty() { tr { th { "bad samples" } td { (numerics) } } }
+                @if !numerics.is_empty() { tr { th { "invalid samples" } td { (numerics) } } }
             } } }
         }
     }
