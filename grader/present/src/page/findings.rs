@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use super::prose::prose;
 use crate::words::{self, count};
 use verdict::check::{CheckResult, Evidence, Reason, Verdict};
 use verdict::edition::Edition;
@@ -33,7 +34,7 @@ fn advice(task: &TaskResult, report: &Report) -> Markup {
         return html! { @if state.is_empty() { "full points" } @else { (state) } };
     };
     html! {
-        (words::explanation(wrong)) "."
+        (prose(&words::explanation(wrong))) "."
         @if wrong.verdict == Verdict::Inconclusive { " Reduce the noise first. Re-run: " } @else { " Fix this first. Re-run: " }
         code { (words::repeat_command(report, &wrong.id)) }
     }
@@ -117,14 +118,14 @@ fn row(report: &Report, check: &CheckResult) -> Markup {
             }
             td class=(class) { (crate::terminal::loud(&check.verdict)) }
             td {
-                (words::explanation(check))
+                (prose(&words::explanation(check)))
                 @if let Some(Evidence::Efficiency(noise)) = &check.evidence && !noise.ratios.is_empty() {
                     br; span.soft { "variance relative to each technique of the solution: " (words::variances(noise)) }
                 }
-                @for remark in words::remarks_with_replay(check, &report.submission.path) { br; span.soft { "Remark: " (remark) } }
+                @for remark in words::remarks_with_replay(check, &report.submission.path) { br; span.soft { "Remark: " (prose(&remark)) } }
                 details.again {
                     summary { "what this checks / re-run" }
-                    p.soft { "This check " (words::about(check.id.kind)) "." }
+                    p.soft { "This check " (prose(words::about(check.id.kind))) "." }
                     @if check.reason == Reason::Bias && test.is_some() {
                         p.soft { "The result was confirmed with independent random numbers." }
                     }
@@ -159,7 +160,7 @@ pub(super) fn skipped(report: &Report) -> Markup {
             details {
                 summary { (count(report.skipped.len(), "check")) " do not apply to their scene, whatever is submitted" }
                 ul { @for entry in &report.skipped {
-                    li { (entry.kind) " with " (entry.technique) ", " (entry.scene) ": " (words::why_not(&entry.why)) }
+                    li { (entry.kind) " with " (entry.technique) ", " (entry.scene) ": " (prose(&words::why_not(&entry.why))) }
                 } }
             }
         }

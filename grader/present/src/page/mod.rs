@@ -8,11 +8,14 @@ pub mod document;
 mod files;
 mod findings;
 pub mod plots;
+mod prose;
 mod viewer;
 
 pub use files::{Readers, pages_beside, pictures_beside, remove_pages, write_pages};
 
 use maud::{Markup, PreEscaped, html};
+
+use prose::prose;
 
 use crate::convergence::{not_measured, sentences, svg};
 use crate::words;
@@ -84,7 +87,7 @@ fn weights(report: &Report) -> Markup {
                 div {
                     p { "Weights of light samples (dots) and BSDF samples (rings), plotted against the ratio of the two densities for \
                         the same direction. The lines show the balance heuristic." }
-                    p { (words::explanation(check)) }
+                    p { (prose(&words::explanation(check))) }
                     p.soft { "Other weights are correct, too, if the two sum to one and that of the light sample rises with p_L / p_B." }
                 }
             }
