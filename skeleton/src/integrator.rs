@@ -24,11 +24,11 @@ pub trait Integrator: Sync {
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Technique {
-    /// BSDF sampling only: light is found when a path happens to hit it.
+    /// BSDF sampling only: a path finds light when it happens to hit a light source.
     Bsdf,
-    /// Next event estimation wherever it can find the light, hits elsewhere.
+    /// Next event estimation for all light it can find; emission on hits for the rest.
     Nee,
-    /// Both at each hit point, combined by multiple importance sampling.
+    /// BSDF and light samples at each hit point, combined by multiple importance sampling.
     Mis,
 }
 
@@ -66,7 +66,7 @@ impl FromStr for Technique {
 /// Settings of a path tracer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
-    /// How light is found.
+    /// Technique for finding light.
     pub technique: Technique,
     /// Maximum number of bounces: 0 = emission only, 1 = direct light. The same limit applies to light that is hit and
     /// to light that is sampled.

@@ -4,7 +4,7 @@ use crate::probe::{self, Call};
 
 /// The random numbers of one path.
 ///
-/// Each triple (seed, pixel, sample) has its own stream, which depends on nothing else. Any path can therefore be replayed,
+/// Each triple (seed, pixel, sample) has its own stream, which depends on nothing else. So any path can be replayed,
 /// images do not depend on the number of threads or the order of the pixels, and renderings with different seeds are
 /// independent.
 ///

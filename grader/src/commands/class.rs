@@ -20,14 +20,15 @@ use verdict::error::{Error, Result};
 use verdict::output;
 use verdict::rubric::Rubric;
 
-/// Grade a class: a folder of submissions as Moodle and ILIAS pack them, or one folder, archive or file per student
+/// Grade a class: a folder of submissions as exported by Moodle or ILIAS, or with one folder, archive or file per student
 ///
-/// Applies deadlines and extensions, and writes a gradebook, a page, and the filled tables of course systems.
+/// Applies deadlines and extensions, and writes a gradebook, an overview page, and the
+/// completed grade tables of course systems.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Folder of submissions
+    /// Folder with the submissions
     folder: PathBuf,
-    /// Students of the class (CSV) [default: the file of --moodle or --ilias]
+    /// Class roster (CSV) [default: the file of --moodle or --ilias]
     #[arg(long, value_name = "FILE.csv")]
     roster: Option<PathBuf>,
     /// Receipt times (CSV: student, received_at, md5, md5_received_at, path); file times are never used
@@ -39,10 +40,10 @@ pub(super) struct Arguments {
     /// Deadline and extensions [default: course.yml beside the rubric, if there is one]
     #[arg(long, value_name = "FILE.yml")]
     course: Option<PathBuf>,
-    /// Moodle's grading worksheet; a filled copy is written to --out
+    /// Moodle's grading worksheet; a completed copy is written to --out
     #[arg(long, value_name = "FILE.csv")]
     moodle: Option<PathBuf>,
-    /// The status.csv of an ILIAS exercise; a filled copy is written to --out
+    /// The status.csv of an ILIAS exercise; a completed copy is written to --out
     #[arg(long, value_name = "FILE.csv")]
     ilias: Option<PathBuf>,
     #[command(flatten)]
@@ -53,20 +54,20 @@ pub(super) struct Arguments {
     /// Submissions to grade at once, each with one thread [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: Option<u16>,
-    /// Continue an earlier run: grade only what has changed
+    /// Resume an earlier run: grade only what has changed
     #[arg(long, conflicts_with = "regrade")]
     resume: bool,
     /// Grade everything again, and print which scores changed
     #[arg(long)]
     regrade: bool,
-    /// Score only; skip the pages of submissions and class, and their images
+    /// Score only; skip the HTML pages and their images
     #[arg(long)]
     no_report: bool,
     /// Seed of all random numbers: the same seed gives the same verdicts
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Run only these checks, given by check, kind, scene, technique or task; repeatable. A task has points only if all
-    /// of its checks are run
+    /// Run only these checks, selected by name, kind, scene, technique or task; repeatable. A task earns points only
+    /// if all of its checks are run
     #[arg(long, value_name = "CHECK|SCENE|TASK", conflicts_with_all = ["moodle", "ilias"])]
     only: Vec<String>,
     #[command(flatten)]

@@ -7,10 +7,10 @@ use clap_complete::Shell;
 use present::streams::print;
 use verdict::error::Result;
 
-/// Print the completions of a shell: bash, elvish, fish, powershell or zsh
+/// Print shell completions for bash, elvish, fish, powershell or zsh
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Shell to complete commands and options for
+    /// Shell to print completions for
     shell: Shell,
 }
 

@@ -18,12 +18,12 @@ use verdict::convergence::{Convergence, DEFAULT_SCENES, NotMeasured, Role};
 use verdict::error::Result;
 use verdict::output;
 
-/// Measure the error of submissions against run time, compared with the solution and plain BSDF sampling
+/// Measure the error of submissions against run time, in comparison with the solution and plain BSDF sampling
 ///
-/// Each point is many separate renderings of one length, measured in processor time; programs take turns. Errors are
-/// relative MSEs against the stored references, whose own noise is subtracted. The curve of an unbiased program falls
-/// with slope −1; a curve that flattens has a bias. Writes convergence.svg, .csv and .json, and convergence.html with
-/// the plot and crops at equal time.
+/// Each point on a curve comes from many independent renderings of the same length, measured in processor time;
+/// programs take turns. Errors are relative MSEs against the stored references, whose own noise is subtracted. The
+/// curve of an unbiased program falls with slope −1; a curve that flattens indicates a bias. Writes convergence.svg,
+/// .csv and .json, and convergence.html with the plot and crops at equal time.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// Submissions, each a render_pt.rs or a folder with one in it [default: the student file in the skeleton]
@@ -37,13 +37,13 @@ pub(super) struct Arguments {
     /// Total processor time in seconds
     #[arg(long, default_value_t = 60.0, value_parser = above_zero)]
     seconds: f64,
-    /// Report the time needed to reach this relMSE [default: the solution's halfway through]
+    /// Report the time needed to reach this relMSE [default: the solution's, halfway through]
     #[arg(long, value_name = "ERROR", value_parser = above_zero)]
     error: Option<f64>,
     /// Seed of all random numbers
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Threads of each program; with more than one, processor times are less accurate
+    /// Number of threads per program; with more than one, processor times are less accurate
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: u16,
     /// Folder for the results; created if missing

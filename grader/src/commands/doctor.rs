@@ -13,7 +13,7 @@ use present::words::missing_layers;
 use verdict::error::Result;
 use verdict::report::Sandbox;
 
-/// Check this machine for grading: compiler, linker, sandbox, and how to get a better one
+/// Check whether this machine can grade: compiler, linker and sandbox, and how to strengthen the sandbox
 #[derive(clap::Args)]
 pub(super) struct Arguments {}
 

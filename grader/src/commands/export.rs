@@ -12,7 +12,7 @@ use verdict::report::Report;
 /// Write a report in the format of another system: Markdown, JUnit, GitHub, Gradescope, Classroom 50, Autolab
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// report.json of a grade
+    /// The report.json of a grade
     report: PathBuf,
     /// Format to write
     #[arg(long)]
@@ -20,7 +20,7 @@ pub(super) struct Arguments {
     /// File to write [default: standard output]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Gradescope's submission_metadata.json, to state how late a submission is
+    /// Gradescope's submission_metadata.json, to report how late the submission is
     #[arg(long, value_name = "FILE")]
     metadata: Option<PathBuf>,
 }

@@ -21,29 +21,29 @@ use verdict::output;
 use verdict::report::Report;
 use verdict::submission::IntakeFinding;
 
-/// Grade one submission: build it, run its checks, print points, write report.json
+/// Grade one submission: build it, run the checks, print the points and write report.json
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// A render_pt.rs, or a folder, .zip, .tar.gz or git repository with one in it [default: the student file in the skeleton]
     submission: Option<PathBuf>,
     #[command(flatten)]
     assignment: Assignment,
-    /// Folder for report.json, report.html (to hand out) and report-tutor.html; created if missing
+    /// Folder for report.json, report.html (for the student) and report-tutor.html; created if missing
     #[arg(long, value_name = "DIR", default_value = "report")]
     out: PathBuf,
     /// Seed of all random numbers: the same seed gives the same verdicts
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Run only these checks, given by check, kind, scene, technique or task; repeatable
+    /// Run only these checks, selected by name, kind, scene, technique or task; repeatable
     #[arg(long, value_name = "CHECK|SCENE|TASK")]
     only: Vec<String>,
-    /// Threads of the submission [default: one per core]
+    /// Number of threads for the submission [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: Option<u16>,
     /// Report 0 points for a submission without a render_pt.rs instead of failing (for servers)
     #[arg(long)]
     missing_is_zero: bool,
-    /// Exit with status 1 if fewer automatic points than this are earned
+    /// Exit with status 1 if automatic grading gives fewer points than this
     #[arg(long, value_name = "POINTS", conflicts_with = "only", value_parser = points)]
     fail_under: Option<f64>,
     /// Score only; skip convergence and HTML (implied by --only)
@@ -53,13 +53,13 @@ pub(super) struct Arguments {
     /// (`-` is standard output); repeatable
     #[arg(long, value_name = "FORMAT[:FILE]", conflicts_with = "watch")]
     export: Vec<Export>,
-    /// Print how the time until the points was spent
+    /// Print how much time each step and each check took
     #[arg(long, conflicts_with_all = ["quiet", "watch"])]
     profile: bool,
-    /// Print only the sum of points; all files are still written
+    /// Print only the total points; all files are still written
     #[arg(long, short, conflicts_with = "watch")]
     quiet: bool,
-    /// Grade again on every save, and show one short table; Ctrl-C ends it
+    /// Grade again on every save and show a short table; stop with Ctrl-C
     #[arg(long, conflicts_with = "fail_under")]
     watch: bool,
     #[command(flatten)]

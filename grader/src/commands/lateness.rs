@@ -17,7 +17,7 @@ pub(super) struct When {
     /// Deadline and extensions [default: course.yml beside the rubric, if there is one]
     #[arg(long, value_name = "FILE.yml", requires = "received_at")]
     course: Option<PathBuf>,
-    /// Login of the student, to find an extension
+    /// Login of the student, to look up an extension
     #[arg(long, requires = "received_at", default_value = "")]
     student: String,
 }

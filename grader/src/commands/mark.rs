@@ -16,10 +16,10 @@ use verdict::output;
 use verdict::report::Report;
 use verdict::text::harmless;
 
-/// Record a tutor's points for a task that is not graded automatically
+/// Record the points a tutor gives for a task that is not graded automatically
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// The submission as it was graded: a file, folder, archive or git repository
+    /// The submission that was graded: a file, folder, archive or git repository
     submission: PathBuf,
     /// Task, such as 5.2a
     task: String,
@@ -28,7 +28,7 @@ pub(super) struct Arguments {
     /// Comment for the student
     #[arg(long, value_name = "TEXT", default_value = "")]
     comment: String,
-    /// Result folder of the grade; marks are stored there and added to its report
+    /// Folder with the results of the grade; marks are stored there and added to its report
     #[arg(long, value_name = "DIR", default_value = "report")]
     out: PathBuf,
     #[command(flatten)]

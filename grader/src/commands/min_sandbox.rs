@@ -5,8 +5,8 @@ use harness::sandbox::{Level, Limits};
 /// The option that says which sandbox is enough.
 #[derive(clap::Args)]
 pub(super) struct MinSandbox {
-    /// Weakest sandbox to grade in (see `grader doctor`) [default: medium for a class, and for one submission where CI
-    /// is set; otherwise none]
+    /// Weakest sandbox level to accept (see `grader doctor`) [default: medium for a class, and for one submission if
+    /// the environment variable CI is set; otherwise none]
     #[arg(long, value_name = "LEVEL")]
     allow_sandbox: Option<Level>,
 }

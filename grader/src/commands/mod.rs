@@ -32,8 +32,7 @@ use verdict::error::Result;
 struct Arguments {
     #[command(subcommand)]
     command: Command,
-    /// Checkout to work in [default: the one that the current folder is in, or else the one that the grader was built
-    /// from]
+    /// Checkout to work in [default: the one that contains the current folder, else the one the grader was built from]
     #[arg(long, global = true, value_name = "DIR")]
     workspace: Option<PathBuf>,
 }

@@ -33,10 +33,10 @@ pub(super) struct Arguments {
     /// Archive to write
     #[arg(long, value_name = "FILE.zip", default_value = "submission.zip")]
     out: PathBuf,
-    /// Pack it even if it does not compile: only your tutor can then give points
+    /// Pack the file even if it does not compile; only your tutor can then give points
     #[arg(long)]
     anyway: bool,
-    /// Your login, if you have an extension
+    /// Your login, if you were granted an extension
     #[arg(long, default_value = "")]
     student: String,
     #[command(flatten)]

@@ -16,7 +16,7 @@ use verdict::error::{Error, Result};
 /// List the checks that apply to a scene, and why others are skipped
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// A scene: its name in scenes/, or a file
+    /// Scene: a name in scenes/, or a file
     scene: PathBuf,
     /// Print JSON
     #[arg(long)]

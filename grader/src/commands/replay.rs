@@ -20,7 +20,7 @@ use verdict::output;
 use verdict::replay::{ReplayTarget, ReplayedPath, Vertex};
 use verdict::rubric::EmissionOnHit;
 
-/// Follow one path of a submission again and show every call that it made. Reports give the command for their findings
+/// Replay one path of a submission and show every call it makes; reports give this command for their findings
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// A render_pt.rs, or a folder with one in it
@@ -31,7 +31,7 @@ pub(super) struct Arguments {
     /// Column and row of the pixel, from the upper left
     #[arg(long, value_name = "X,Y", value_parser = |text: &str| pair(text, ','))]
     pixel: [u32; 2],
-    /// Number of the sample
+    /// Index of the sample within the pixel
     #[arg(long)]
     sample: u64,
     /// Technique: bsdf, nee or mis
@@ -52,16 +52,16 @@ pub(super) struct Arguments {
     /// Multiply the emission of all lights by this factor
     #[arg(long, default_value_t = 1.0, value_parser = factor)]
     emission: f64,
-    /// off: lights that a path hits emit nothing
+    /// off: lights emit nothing when a path hits them
     #[arg(long, value_name = "on|off", default_value = "on", value_parser = emission_on_hit)]
     emission_on_hit: EmissionOnHit,
     /// Old name of `--emission-on-hit=off`
     #[arg(long, hide = true)]
     hits_off: bool,
-    /// Skip the solution's own path
+    /// Do not trace the path with the solution as well
     #[arg(long)]
     student: bool,
-    /// Also write everything to this file as JSON
+    /// Also write the replay to this file as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
 }

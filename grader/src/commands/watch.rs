@@ -98,7 +98,7 @@ fn show(text: &str, path: &Path) {
     let mut out = std::io::stdout().lock();
     let clear = if out.is_terminal() { "\x1b[2J\x1b[3J\x1b[H" } else { "" };
     // The reader may be gone.
-    let _ = writeln!(out, "{clear}{} (Ctrl-C ends)\n{text}", path.display());
+    let _ = writeln!(out, "{clear}{} (Ctrl-C to stop)\n{text}", path.display());
     let _ = out.flush();
 }
 
@@ -107,7 +107,8 @@ fn finished(report: &Report) -> String {
     if let Some(failure) = &report.submission.build_failure {
         let lines: Vec<&str> = failure.messages.lines().collect();
         let more = lines.len().saturating_sub(MESSAGE_LINES);
-        let mut text = format!("it does not compile:\n\n{}", lines[..lines.len() - more].join("\n"));
+        let mut text =
+            format!("the submission does not compile:\n\n{}", lines[..lines.len() - more].join("\n"));
         if more > 0 {
             text += &format!("\n… and {more} more lines: save again after fixing these");
         }

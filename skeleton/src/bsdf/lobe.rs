@@ -16,7 +16,7 @@ pub(crate) enum Lobe {
         reflectance: Rgb,
     },
     Glass(Glass),
-    /// In the build of the grader's host only.
+    /// Only in builds for the grader's host.
     Scripted(ScriptedLobe),
 }
 

@@ -1,7 +1,7 @@
 //! How surfaces scatter light.
 //!
-//! A [`Bsdf`] belongs to one hit point and one direction `wo` towards the viewer; its functions take or return the
-//! direction `wi` towards the light. Both are unit vectors in world space that point away from the surface. All densities
+//! A [`Bsdf`] belongs to one hit point and one direction `wo` to the viewer; its functions take or return the direction
+//! `wi` to the light. Both are unit vectors in world space that point away from the surface. All densities
 //! are per solid angle.
 //!
 //! Surfaces are two-sided, except for glass, whose front is outside.
@@ -28,7 +28,7 @@ pub(crate) use scripted::ScriptedLobe;
 /// The bidirectional scattering distribution function at a hit point, for a fixed direction `wo` to the viewer.
 ///
 /// It is the sum of one or two lobes: diffuse, modified Phong, mirror, glass. Mirror and glass are delta distributions: they
-/// scatter into single directions, which no other sampling technique ever finds.
+/// scatter into single directions, which no other sampling technique can find.
 #[derive(Clone, Copy, Debug)]
 pub struct Bsdf {
     geometry: LocalGeometry,
@@ -43,10 +43,10 @@ pub struct Bsdf {
 pub struct BsdfSample {
     /// The sampled direction: a unit vector in world space, pointing away from the surface.
     pub wi: Vec3,
-    /// The value of the BSDF for `wi`, 1/sr, without the cosine. For a delta lobe the fraction of radiance that is scattered,
-    /// divided by `cos`, so that `f · cos / pdf` is correct in either case.
+    /// The value of the BSDF for `wi`, 1/sr, without the cosine. For a delta lobe, the fraction of radiance that is scattered,
+    /// divided by `cos`, so `f · cos / pdf` is correct in either case.
     pub f: Rgb,
-    /// Density per solid angle with which `wi` was sampled, over all lobes. For a delta lobe the probability of selecting it
+    /// Density per solid angle with which `wi` was sampled, over all lobes. For a delta lobe, the probability of selecting it
     /// and its direction. Finite and greater than 0.
     pub pdf: f32,
     /// Absolute cosine between `wi` and the shading normal.
@@ -134,10 +134,10 @@ impl Bsdf {
 
     /// Density per solid angle with which [`sample`](Self::sample) samples `wi`.
     ///
-    /// Zero at and below the horizon. In a mixture with a delta lobe only the other lobe counts, with its selection
+    /// Zero at and below the horizon. In a mixture with a delta lobe, only the other lobe counts, times its selection
     /// probability. The integral over all directions is at most 1; the rest is the probability of delta lobes and of samples
     /// below the horizon, for which `sample` returns `None`. A black material has the density of a white one, although
-    /// `sample` always returns `None`.
+    /// `sample` always returns `None` for it.
     #[inline]
     pub fn pdf(&self, wi: Vec3) -> f32 {
         let pdf = self.density(wi);

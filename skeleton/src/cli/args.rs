@@ -61,7 +61,7 @@ pub(super) struct Args {
     #[arg(short, long, value_name = "SECONDS", value_parser = seconds, help_heading = IMAGE)]
     pub(super) time: Option<Duration>,
 
-    /// Output file, .png (for viewing) or .exr (linear data); can be repeated [default: `<scene>.png` in the current
+    /// Output file, .png (for viewing) or .exr (linear data); repeatable [default: `<scene>.png` in the current
     /// folder]
     ///
     /// Existing files are replaced. An OpenEXR file contains the mean of each pixel, the variance of that mean (with two
@@ -75,12 +75,12 @@ pub(super) struct Args {
           help_heading = OUTPUT)]
     pub(super) exposure: f32,
 
-    /// Show the image in the tev viewer during rendering
+    /// Show the image in the tev viewer while it renders
     #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, require_equals = true,
           default_missing_value = tev::DEFAULT_ADDRESS, help_heading = OUTPUT)]
     pub(super) tev: Option<String>,
 
-    /// Print and save the error against this OpenEXR reference during rendering (relative MSE, MSE)
+    /// Print and save the error against this OpenEXR reference while rendering (relative MSE, MSE)
     ///
     /// The image is rendered with the reference's size, which --width and --height must not contradict, and maximum
     /// number of bounces. If the reference has a layer `variance` (as files written by this program do), it is

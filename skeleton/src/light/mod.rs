@@ -1,8 +1,8 @@
 //! Light sources.
 //!
 //! [`Light::sample_direct`] samples a random point on a light. When a path hits a light instead,
-//! [`Hit::emission`](crate::scene::Hit::emission) tells what it emits there. Densities of points are **per area** of
-//! the light; converting them to densities per solid angle is up to the caller.
+//! [`Hit::emission`](crate::scene::Hit::emission) returns what the light emits there. Densities of points are **per area**
+//! of the light; converting them to densities per solid angle is up to the caller.
 
 mod point;
 mod recorded;
@@ -19,12 +19,12 @@ pub(crate) use recorded::emission as recorded_emission;
 pub(crate) use spot::SpotLight;
 pub(crate) use triangle::TriangleLight;
 
-/// A light source: a point, a spot, or a triangle. Each triangle of an emissive mesh is a light of its own.
+/// A light source: a point, a spot, or a triangle. Each triangle of an emissive mesh is a separate light.
 #[derive(Clone, Debug)]
 pub struct Light {
     index: usize,
     shape: Shape,
-    /// In the build of the grader's host only.
+    /// Only in builds for the grader's host.
     pub(crate) script: Option<ScriptedLight>,
 }
 
@@ -40,8 +40,8 @@ pub(crate) enum Shape {
 pub struct DirectSample {
     /// The sampled point on the light, in world space.
     pub point: Vec3,
-    /// What the light emits towards the shading point: for a light with an area its radiance, W·sr⁻¹·m⁻²; for one
-    /// without its intensity, W·sr⁻¹.
+    /// Emission towards the shading point: radiance, W·sr⁻¹·m⁻², for a light with an area; intensity, W·sr⁻¹, for one
+    /// without.
     pub emitted: Rgb,
     /// Density per area of the light with which `point` was sampled, m⁻²; 1 for a light without an area.
     pub pdf_area: f32,
@@ -76,8 +76,8 @@ impl Light {
 
     /// Samples a random point on this light, as seen from the shading point `from` (world space).
     ///
-    /// `None` if the light emits nothing from there towards `from`: the shading point is behind the light, in its
-    /// plane, outside its cone, or at distance 0. Such a sample contributes nothing. Visibility is not tested: see
+    /// `None` if the light emits nothing from the sampled point towards `from`: the shading point is behind the light, in its
+    /// plane, outside its cone, or at distance 0. Such a sample contributes nothing. Visibility is not tested; use
     /// [`Scene::occluded`](crate::scene::Scene::occluded).
     #[inline]
     pub fn sample_direct(&self, from: Vec3, sampler: &mut Sampler) -> Option<DirectSample> {

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 /// A linear RGB value with the primaries and white point of Rec. 709 (sRGB without its transfer curve).
 ///
-/// The unit depends on the quantity: radiance is W·sr⁻¹·m⁻², reflectance and throughput have none. Products are
-/// per channel.
+/// The unit depends on the quantity: W·sr⁻¹·m⁻² for radiance, none for reflectance and throughput. Products are per
+/// channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rgb {
     /// Red.

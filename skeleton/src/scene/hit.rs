@@ -66,7 +66,7 @@ impl<'a> Hit<'a> {
         }
     }
 
-    /// The light hit here and what it emits towards the viewer. `None` if the surface is not a light, or if the ray has hit
+    /// The light at this point and what it emits towards the viewer. `None` if the surface is not a light, or if the ray hit
     /// the back of one.
     #[inline]
     pub fn emission(&self) -> Option<Emission<'a>> {
@@ -152,7 +152,7 @@ impl<'a> Hit<'a> {
         (1.0 - v - w) * a + v * b + w * c
     }
 
-    /// Absolute cosine between the shading normal and a unit direction.
+    /// Absolute cosine between the shading normal and the unit direction `wi`.
     #[inline]
     pub fn cos(&self, wi: Vec3) -> f32 {
         let cos = self.normal.dot(wi).abs();
@@ -161,7 +161,7 @@ impl<'a> Hit<'a> {
     }
 
     /// A ray from this point in the unit direction `wi`, on either side of the surface. It cannot hit the triangle it starts
-    /// on. For another direction, spawn another ray.
+    /// on. Spawn a new ray for each direction.
     #[inline]
     pub fn spawn(&self, wi: Vec3) -> Ray {
         Ray { exclude: Some(self.primitive), ..Ray::new(self.leave_towards(wi), wi) }

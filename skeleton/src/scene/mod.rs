@@ -39,7 +39,7 @@ pub struct Scene {
     switches: Switches,
 }
 
-/// The data of a triangle that are needed once it is hit.
+/// The data of a triangle that a hit needs.
 struct Triangle {
     vertices: [Vec3; 3],
     /// Unit normal of the front.
@@ -67,7 +67,7 @@ struct Surface {
     diffuse: Rgb,
     diffuse_map: Option<u32>,
     specular: Specular,
-    /// In the build of the grader's host only.
+    /// Only in builds for the grader's host.
     script: Option<ScriptedBsdf>,
 }
 
@@ -106,7 +106,7 @@ impl Scene {
         Camera::new(&self.camera, width, height)
     }
 
-    /// The settings suggested by the scene file.
+    /// The default settings from the scene file.
     pub fn defaults(&self) -> Defaults {
         self.defaults
     }

@@ -12,31 +12,32 @@ use harness::build::Framework;
 use harness::workspace::Workspace;
 use verdict::error::Result;
 
-/// Measure the rate of false alarms and the smallest error that is found
+/// Measure the false-alarm rate and the smallest detectable bias
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Simulated grades, from recorded samples of the correct variants in turn
+    /// Number of simulated grades, resampled from recorded images of the correct variants in turn
     #[arg(long, value_name = "N", default_value_t = 30_000)]
     resampled: u64,
-    /// Simulated grades of the solution at each bias
+    /// Number of simulated grades of the solution at each bias
     #[arg(long, value_name = "N", default_value_t = 200)]
     power: u64,
-    /// Simulated grades of each wrong variant in each check of the tasks that it costs, and draws without an error for
-    /// the simpler tests; 0 skips the comparison with these
+    /// Number of simulated grades for the comparison with simpler tests: of each wrong variant in each check of the
+    /// tasks it fails, and as many without an error; 0 skips the comparison
     #[arg(long, value_name = "N", default_value_t = 20)]
     rivals: u64,
-    /// Whole grades, of the correct variants in turn
+    /// Number of complete grades, of the correct variants in turn
     #[arg(long, value_name = "N", default_value_t = 1000)]
     grades: u64,
-    /// Images of one sample per pixel to record for each check
+    /// Number of images with one sample per pixel to record for each check
     #[arg(long, value_name = "N", default_value_t = 8192)]
     pool: u64,
-    /// Stop after this many minutes; the next run continues from there
+    /// Stop after this many minutes; the next run resumes
     #[arg(long, value_name = "MINUTES")]
     minutes: Option<f64>,
     #[command(flatten)]
     assignment: Assignment,
-    /// Folder of the results; known results are used [default: target/calibration, and target/mutants for whole grades]
+    /// Folder for the results; existing results are reused [default: target/calibration, and target/mutants for complete
+    /// grades]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Number of threads [default: one per core]

@@ -7,21 +7,21 @@ use crate::compare::{Comparison, Grades};
 use crate::output::print;
 use verdict::error::Result;
 
-/// Compare two sets of grades, and print every verdict and every task's points that differ
+/// Compare two sets of grades, and print every verdict and task score that differs
 ///
-/// A set is a folder that `cargo lab mutants --out` has written, or a folder with folders that each hold a report.json.
+/// A set is a folder written by `cargo lab mutants --out`, or one with a subfolder per submission that holds its report.json.
 /// Reports of the formats arty-report/1 and arty-report/2 can be compared. Submissions match by name; a leading number
 /// such as in 45-one-sample-mis is ignored.
 ///
-/// Exit status 1 if anything differs, or AFTER lacks a submission of BEFORE. Submissions that only AFTER has are listed,
-/// and do not count as a difference.
+/// Exit status 1 if anything differs, or if AFTER lacks a submission of BEFORE. Submissions that exist only in AFTER are
+/// listed, but do not count as a difference.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Folder of the earlier grades
+    /// Folder with the earlier grades
     before: PathBuf,
-    /// Folder of the later grades
+    /// Folder with the later grades
     after: PathBuf,
-    /// A submission that has another name in AFTER; may be repeated
+    /// A submission that has another name in AFTER; repeatable
     #[arg(long, value_name = "OLD=NEW", value_parser = renamed)]
     renamed: Vec<(String, String)>,
 }

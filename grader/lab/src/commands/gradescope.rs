@@ -9,7 +9,7 @@ use harness::assignment::Assignment;
 use harness::workspace::Workspace;
 use verdict::error::Result;
 
-/// Pack the grader for Gradescope: a zip archive with setup.sh and run_autograder. It contains the solution
+/// Pack the grader for Gradescope as a zip archive with setup.sh and run_autograder, which contains the solution
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// The archive to write

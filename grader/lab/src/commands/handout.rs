@@ -10,7 +10,7 @@ use harness::workspace::Workspace;
 use verdict::check::Visibility;
 use verdict::error::Result;
 
-/// Make the folder that students get: the checkout without the solution and everything that reveals it
+/// Create the handout for students: the checkout without the solution or anything that reveals it
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// The folder to create; it must be missing or empty

@@ -15,7 +15,7 @@ use verdict::error::Result;
 /// Exit status 1 if the framework renders an extreme scene incorrectly.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Run only this sweep, or only the extreme `scenes`; may be repeated. The summary is printed instead of written
+    /// Run only this sweep, or only the extreme `scenes`; repeatable. The summary is printed instead of saved
     #[arg(long, value_name = "SWEEP")]
     only: Vec<String>,
     /// Folder for tables and plots [default: grader/lab/limits]

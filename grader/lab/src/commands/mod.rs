@@ -14,10 +14,10 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-/// Measure the grader, and make references, figures, signatures and handouts (staff only)
+/// Measure the grader, and create references, figures, signatures and handouts (staff only)
 ///
-/// Exit status: 0 = done, 1 = something is not as expected, 2 = invalid command line or input, 3 = the laboratory failed
-/// or could not write its output.
+/// Exit status: 0 = success, 1 = unexpected results, 2 = invalid command line or input, 3 = internal error, or output that
+/// cannot be written.
 #[derive(Parser)]
 #[command(name = "lab", version, propagate_version = true)]
 struct Arguments {

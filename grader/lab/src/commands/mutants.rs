@@ -13,23 +13,23 @@ use harness::workspace::Workspace;
 use judge::grade::Options;
 use verdict::error::{Error, Result};
 
-/// Grade wrong and correct variants of the solution, and show which mistakes are caught
+/// Grade wrong and correct variants of the solution, and report which mistakes are caught
 ///
 /// Exit status 1 if the outcome of any variant is unexpected.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Grade only these variants: by name, by row of the catalogue, or all that are `right` or `wrong`
+    /// Grade only these variants, selected by name, by row of the catalogue, or as `right` or `wrong`
     #[arg(long, value_name = "VARIANT|ROW|KIND")]
     only: Vec<String>,
-    /// Grade each variant with the seeds 1 to N
+    /// Grade each variant with seeds 1 to N
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     seeds: u64,
     #[command(flatten)]
     assignment: Assignment,
-    /// Folder of the results; known results are used [default: target/mutants]
+    /// Folder for the results; existing results are reused [default: target/mutants]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Number of variants graded at the same time, each with one thread [default: one per core]
+    /// Number of variants to grade at once, each with one thread [default: one per core]
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
 }

@@ -21,7 +21,7 @@ const PICTURE_SIZE: (u32, u32) = (320, 256);
 /// Samples per pixel of these pictures.
 const PICTURE_SAMPLES: u64 = 256;
 
-/// Render references with the solution. The same seed gives the same files, byte by byte
+/// Render references with the solution; the same seed gives identical files
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// Names of scenes [default: all scenes that the assignment checks]
@@ -31,10 +31,10 @@ pub(super) struct Arguments {
     /// Seed of all random numbers
     #[arg(long, default_value_t = 20_190_501)]
     seed: u64,
-    /// Skip the pictures for viewing
+    /// Skip the preview pictures
     #[arg(long)]
     no_pictures: bool,
-    /// Render only the pictures for viewing
+    /// Render only the preview pictures
     #[arg(long, conflicts_with = "no_pictures")]
     only_pictures: bool,
 }

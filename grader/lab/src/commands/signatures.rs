@@ -10,7 +10,8 @@ use harness::workspace::Workspace;
 use judge::diagnosis::Catalogue;
 use verdict::error::Result;
 
-/// Learn signatures of known mistakes from the grades of `cargo lab mutants`, and measure how often they are named
+/// Learn signatures of known mistakes from the grades of `cargo lab mutants`, and measure how often a cause is named
+/// correctly
 ///
 /// The grades of one seed become signatures.json of the assignment. The grades of all other seeds are diagnosed with
 /// these signatures; the result is written to grader/variants/confusion.md and confusion.json.
@@ -18,10 +19,10 @@ use verdict::error::Result;
 pub(super) struct Arguments {
     #[command(flatten)]
     assignment: Assignment,
-    /// Seed of the grades that become signatures
+    /// Seed whose grades become signatures
     #[arg(long, value_name = "SEED", default_value_t = 1)]
     learn: u64,
-    /// Folder of the grades [default: target/mutants]
+    /// Folder with the grades [default: target/mutants]
     #[arg(long, value_name = "DIR")]
     grades: Option<PathBuf>,
 }

@@ -15,7 +15,7 @@ pub fn page(convergence: &Convergence, crops: &[Crops]) -> String {
     let body = html! {
         header { h1 { "Error against run time" } }
         main {
-            p.soft { "The error of an unbiased program falls with slope −1; a curve that flattens shows a bias (dashed line). \
+            p.soft { "The error of an unbiased program falls with slope −1; a curve that flattens indicates a bias (dashed line). \
                 Bars are 95 % confidence intervals." }
             @if let Some(plot) = svg(convergence) { div.scroll { (PreEscaped(plot)) } }
             ul { @for sentence in convergence.panels.iter().flat_map(sentences) { li { (sentence) } } }

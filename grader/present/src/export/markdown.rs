@@ -37,7 +37,7 @@ pub(super) fn summary(report: &Report) -> String {
     for diagnosis in &report.diagnosis {
         let _ = writeln!(out, "\n### {}", text(&words::heading(diagnosis)));
         let seen = words::seen(report, diagnosis);
-        for (begin, part) in [("Seen: ", seen.as_str()), ("Hint: ", words::hint(&diagnosis.cause))] {
+        for (begin, part) in [("Observed: ", seen.as_str()), ("Hint: ", words::hint(&diagnosis.cause))] {
             if !part.is_empty() {
                 let _ = writeln!(out, "\n{begin}{}", text(part));
             }

@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use super::prose::prose;
 use crate::words::{heading, hint, seen};
 use verdict::report::Report;
 
@@ -13,9 +14,9 @@ pub(super) fn section(report: &Report) -> Markup {
                 h2 { "Likely causes" }
                 @for diagnosis in &report.diagnosis {
                     @let (seen, hint) = (seen(report, diagnosis), hint(&diagnosis.cause));
-                    h3 { (heading(diagnosis)) }
-                    @if !seen.is_empty() { p { "Seen: " (seen) } }
-                    @if !hint.is_empty() { p { "Hint: " (hint) } }
+                    h3 { (prose(&heading(diagnosis))) }
+                    @if !seen.is_empty() { p { "Observed: " (prose(&seen)) } }
+                    @if !hint.is_empty() { p { "Hint: " (prose(hint)) } }
                 }
             }
         }

@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use super::prose::prose;
 use crate::words::{self, count};
 use verdict::check::{CheckResult, Evidence, Reason, Verdict};
 use verdict::edition::Edition;
@@ -30,11 +31,11 @@ pub(super) fn tasks(report: &Report) -> Markup {
 fn advice(task: &TaskResult, report: &Report) -> Markup {
     let Some(&wrong) = report.lacking(&task.id).first() else {
         let state = words::task_state(task);
-        return html! { @if state.is_empty() { "nothing is missing" } @else { (state) } };
+        return html! { @if state.is_empty() { "full points" } @else { (state) } };
     };
     html! {
-        (words::explanation(wrong)) "."
-        @if wrong.verdict == Verdict::Inconclusive { " Reduce the noise first: " } @else { " Fix this first: " }
+        (prose(&words::explanation(wrong))) "."
+        @if wrong.verdict == Verdict::Inconclusive { " Reduce the noise first. Re-run: " } @else { " Fix this first. Re-run: " }
         code { (words::repeat_command(report, &wrong.id)) }
     }
 }
@@ -47,7 +48,7 @@ pub(super) fn explanations(report: &Report) -> Markup {
                 summary { "Explanation: " (explanation.name) }
                 @match &explanation.text {
                     Some(text) => pre { (text) },
-                    None => p { "This is not a text: open the file itself (" (count(explanation.bytes, "byte")) ", BLAKE3 " code { (explanation.hash) } ")." }
+                    None => p { "This is not a text file; open it directly (" (count(explanation.bytes, "byte")) ", BLAKE3 " code { (explanation.hash) } ")." }
                 }
             }
         }
@@ -79,8 +80,7 @@ pub(super) fn checks(report: &Report, edition: Edition) -> Markup {
         }
         @if let Edition::Student { concealed, passed } = edition && concealed > 0 {
             p { (count(concealed, "check")) " in scenes that are not handed out " @if concealed == 1 { "is" } @else { "are" }
-                " not shown; " (passed) " passed. They ask for nothing that the others do not: a submission that is right in every \
-                scene passes them." }
+                " not shown; " (passed) " passed. They test nothing new: a submission that is correct in every scene passes them." }
         }
     }
 }
@@ -90,7 +90,7 @@ fn table(report: &Report, checks: &[&CheckResult]) -> Markup {
         div.scroll { table.cards {
             thead { tr {
                 th { "check" } th { "verdict" } th { "why" } th.number { "error" } th.number { "99 % interval" }
-                th.number title="the smallest relative error of the whole image that would have been found" { "detectable" }
+                th.number title="the smallest relative error of the whole image that this check would have detected" { "detectable" }
                 th.number { "samples" } th.number { "seconds" }
             } }
             tbody { @for check in checks { (row(report, check)) } }
@@ -118,14 +118,14 @@ fn row(report: &Report, check: &CheckResult) -> Markup {
             }
             td class=(class) { (crate::terminal::loud(&check.verdict)) }
             td {
-                (words::explanation(check))
+                (prose(&words::explanation(check)))
                 @if let Some(Evidence::Efficiency(noise)) = &check.evidence && !noise.ratios.is_empty() {
-                    br; span.soft { "variance relative to the solution's: " (words::variances(noise)) }
+                    br; span.soft { "variance relative to each technique of the solution: " (words::variances(noise)) }
                 }
-                @for remark in words::remarks_with_replay(check, &report.submission.path) { br; span.soft { "Remark: " (remark) } }
+                @for remark in words::remarks_with_replay(check, &report.submission.path) { br; span.soft { "Remark: " (prose(&remark)) } }
                 details.again {
                     summary { "what this checks / re-run" }
-                    p.soft { "This check " (words::about(check.id.kind)) "." }
+                    p.soft { "This check " (prose(words::about(check.id.kind))) "." }
                     @if check.reason == Reason::Bias && test.is_some() {
                         p.soft { "The result was confirmed with independent random numbers." }
                     }
@@ -158,9 +158,9 @@ pub(super) fn skipped(report: &Report) -> Markup {
         @if !report.skipped.is_empty() {
             h2 { "Skipped checks" }
             details {
-                summary { (count(report.skipped.len(), "check")) " cannot judge anything, whatever is submitted" }
+                summary { (count(report.skipped.len(), "check")) " do not apply to their scene, whatever is submitted" }
                 ul { @for entry in &report.skipped {
-                    li { (entry.kind) " with " (entry.technique) ", " (entry.scene) ": " (words::why_not(&entry.why)) }
+                    li { (entry.kind) " with " (entry.technique) ", " (entry.scene) ": " (prose(&words::why_not(&entry.why))) }
                 } }
             }
         }
@@ -195,7 +195,7 @@ pub(super) fn provenance(report: &Report) -> Markup {
                     tr { th { "line " (finding.line) } td { code { (finding.what) } ": " (finding.why) } }
                 }
                 tr { th { "seconds" } td { (format!("compiling {:.1}, running {:.1}, total {:.1}", cost.build, cost.run, cost.total)) } }
-                @if !numerics.is_empty() { tr { th { "bad samples" } td { (numerics) } } }
+                @if !numerics.is_empty() { tr { th { "invalid samples" } td { (numerics) } } }
             } } }
         }
     }

@@ -8,11 +8,14 @@ pub mod document;
 mod files;
 mod findings;
 pub mod plots;
+mod prose;
 mod viewer;
 
 pub use files::{Readers, pages_beside, pictures_beside, remove_pages, write_pages};
 
 use maud::{Markup, PreEscaped, html};
+
+use prose::prose;
 
 use crate::convergence::{not_measured, sentences, svg};
 use crate::words;
@@ -62,7 +65,7 @@ fn convergence(report: &Report) -> Markup {
     let Some(convergence) = &report.convergence else { return html! {} };
     html! {
         h2 { "Error against run time" }
-        p.soft { "This changes no points. The error of an unbiased program falls with slope −1; a curve that flattens shows a bias \
+        p.soft { "This changes no points. The error of an unbiased program falls with slope −1; a curve that flattens indicates a bias \
             (dashed line). Bars are 95 % confidence intervals." }
         @if let Some(plot) = svg(convergence) { div.scroll { (PreEscaped(plot)) } }
         ul { @for sentence in convergence.panels.iter().flat_map(sentences) { li { (sentence) } } }
@@ -82,10 +85,10 @@ fn weights(report: &Report) -> Markup {
             div.beside {
                 div.scroll { (PreEscaped(plot)) }
                 div {
-                    p { "Weights of light samples (dots) and of BSDF samples (rings) over the ratio of the two densities for the \
-                        same direction. The lines show the balance heuristic." }
-                    p { (words::explanation(check)) }
-                    p.soft { "Other weights are right too, if the two sum to one and that of the light sample rises with p_L / p_B." }
+                    p { "Weights of light samples (dots) and BSDF samples (rings), plotted against the ratio of the two densities for \
+                        the same direction. The lines show the balance heuristic." }
+                    p { (prose(&words::explanation(check))) }
+                    p.soft { "Other weights are correct, too, if the two sum to one and that of the light sample rises with p_L / p_B." }
                 }
             }
         }
@@ -103,9 +106,9 @@ fn furnaces(report: &Report) -> Markup {
     html! {
         @if !plots.is_empty() {
             h2 { "White furnace: energy per bounce" }
-            p { "Inside a closed surface that emits uniformly, the energy of each bounce is known: relative to exact it is 1, the \
-                dashed line. Bars are 99 % confidence intervals. The first bounce that is off is the one that is wrong: 2 is light \
-                that both techniques count, 0 is light that neither finds." }
+            p { "Inside a closed surface that emits uniformly, the energy of each bounce is known. The plots show your energy \
+                relative to it; the dashed line, 1, is correct. Bars are 99 % confidence intervals. Start with the first bounce that is \
+                off: 2 means that both techniques count the light, 0 that neither finds it." }
             div.plots {
                 @for (id, plot) in plots {
                     figure { figcaption { b { (id.scene) ", " (id.technique) } } div.scroll { (PreEscaped(plot)) } }
@@ -121,14 +124,14 @@ fn p_values(report: &Report) -> Markup {
         (
             true,
             "Checks that passed",
-            "Without bias all bars are equally high but for noise: 19 of 20 end between the dashed lines. A high bar on \
-            the left means tiles that differ by more than noise. Low bars there are caution: noise that is not well known is \
-            assumed to be larger.",
+            "Without bias, all bars have the same height up to noise: 19 of 20 end between the dashed lines. A high bar on \
+            the left means that tiles differ by more than noise. Low bars on the left are no problem: where the noise is not \
+            known well, the test assumes more of it.",
         ),
         (
             false,
             "Other checks",
-            "A high bar on the left is expected here: tiles that differ by more than noise.",
+            "A high bar on the left is expected here: these tiles differ by more than noise.",
         ),
     ];
     let plots: Vec<_> = plots
@@ -138,8 +141,8 @@ fn p_values(report: &Report) -> Markup {
     html! {
         @if !plots.is_empty() {
             h2 { "Bias or noise?" }
-            p { "Images are compared with the reference in tiles. The p-value of a tile is the probability of a difference of at least \
-                this size if there is only noise." }
+            p { "Images are compared with the reference tile by tile. The p-value of a tile is the probability that noise alone causes a \
+                difference at least this large." }
             div.plots {
                 @for (title, words, values) in plots {
                     figure {

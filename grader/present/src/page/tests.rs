@@ -38,6 +38,12 @@ fn the_page_says_points_errors_and_the_command_that_reruns() {
 }
 
 #[test]
+fn code_in_sentences_is_shown_as_code() {
+    let text = of("open", &[]);
+    assert!(text.contains("in open (<code>nee</code>)") && !text.contains("(`nee`)"), "{text}");
+}
+
+#[test]
 fn only_the_pages_own_script_may_run() {
     let text = of("open", &[picture("cornell_box")]);
     let policy =

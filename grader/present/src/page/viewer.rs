@@ -24,7 +24,7 @@ const KEYS: [(&str, &str); 8] = [
     ("←↑↓→", "move to another pixel (with Shift: by ten)"),
     ("1 … 5", "submission, reference, difference, z, FLIP"),
     ("b n m", "technique: BSDF sampling, NEE, MIS"),
-    ("f", "flip to the reference and back"),
+    ("f", "toggle between this picture and the reference"),
     ("+ −", "zoom; also Ctrl + wheel, or a double click"),
     ("e d", "exposure up, down"),
     ("[ ]", "wipe"),
@@ -38,7 +38,7 @@ pub(super) fn section(report: &Report, pictures: &[&Picture]) -> Markup {
             h2 { "Pictures" }
             p.soft { "Move over a picture to read its pixels; click to hold one. Pictures with few samples are noisy: the checks \
                 decide, not these pictures." }
-            noscript { p { "The pictures need JavaScript, which is turned off in your browser." } }
+            noscript { p { "The pictures need JavaScript, which is disabled in your browser." } }
             details.keys { summary { "keys" } dl { @for (key, what) in KEYS { div { dt { kbd { (key) } } dd { (what) } } } } }
             @for (index, picture) in pictures.iter().enumerate() { (figure(index, picture, report)) }
         }

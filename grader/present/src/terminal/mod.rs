@@ -58,7 +58,10 @@ fn write_summary(out: &mut impl Write, report: &Report, width: Option<usize>) ->
                 format!("explanation: {name}, {words}, shown in report.html")
             }
             None => {
-                format!("explanation: {name}, {}: open the file itself", count(explanation.bytes, "byte"))
+                format!(
+                    "explanation: {name}, {}; not a text file, open it directly",
+                    count(explanation.bytes, "byte")
+                )
             }
         };
         paragraph(out, "", &content, width)?;
@@ -93,7 +96,7 @@ fn write_causes(out: &mut impl Write, report: &Report, width: Option<usize>) -> 
         writeln!(out)?;
         paragraph(out, "", &bold(&words::heading(diagnosis)), width)?;
         let seen = words::seen(report, diagnosis);
-        for (begin, text) in [("seen: ", seen.as_str()), ("hint: ", words::hint(&diagnosis.cause))] {
+        for (begin, text) in [("observed: ", seen.as_str()), ("hint: ", words::hint(&diagnosis.cause))] {
             if !text.is_empty() {
                 paragraph(out, "  ", &format!("{begin}{text}"), width)?;
             }
@@ -240,13 +243,13 @@ mod tests {
     fn a_cause_that_is_unknown_is_one_sentence() {
         let mut report = report("x");
         let text = shown(&report, Some(120));
-        let expected = "Likely cause (50 % sure): x\n  seen: the mean radiance is 0.88 ± 0.01 times what it should be in x (`nee`)\n  \
+        let expected = "Likely cause (50 % sure): x\n  observed: the mean radiance is 0.88 ± 0.01 times what it should be in x (`nee`)\n  \
                         hint: x\n";
         assert!(text.contains(expected), "{text}");
         report.diagnosis[0].cause = Cause::Unknown { several_fit: false };
         let text = shown(&report, Some(120));
         assert!(text.contains("\nCause unknown: the results fit no known mistake.\n"), "{text}");
-        assert!(!text.contains("seen:"), "{text}");
+        assert!(!text.contains("observed:"), "{text}");
     }
 
     #[test]

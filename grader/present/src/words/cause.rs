@@ -25,13 +25,13 @@ pub fn title(cause: &Cause) -> String {
     let text = match cause {
         Cause::Known { title, .. } => title,
         Cause::Unknown { several_fit: true } => {
-            "Cause unknown: the results fit several known mistakes. More checks may tell."
+            "Cause unknown: the results fit several known mistakes. More checks may narrow it down."
         }
         Cause::Unknown { several_fit: false } => "Cause unknown: the results fit no known mistake.",
         Cause::NothingToCompile => "There is nothing to compile",
         Cause::DoesNotCompile => "The file does not compile",
         Cause::Panics => "The program panics",
-        Cause::TodoLeft => "The program reaches a place that is marked as still to be done",
+        Cause::TodoLeft => "The program reaches code that is marked as not yet implemented",
         Cause::DoesNotFinish { .. } => "The program does not finish in time",
         Cause::ConstantFactor { factor, .. } => {
             return format!(
@@ -39,8 +39,8 @@ pub fn title(cause: &Cause) -> String {
                 trimmed(*factor, 2)
             );
         }
-        Cause::NotBegun => "Nothing is filled in yet: this is the starting file",
-        Cause::MisNotBegun => "MIS is not begun: nothing in the file asks for the technique `mis`",
+        Cause::NotBegun => "Nothing has been filled in yet: this is the starting file",
+        Cause::MisNotBegun => "MIS has not been started: the file never checks for the technique `mis`",
     };
     text.to_owned()
 }
@@ -51,7 +51,7 @@ pub fn hint(cause: &Cause) -> &str {
         Cause::Known { hint, .. } => hint,
         Cause::Unknown { .. } => "",
         Cause::NothingToCompile => {
-            "Submit your render_pt.rs by itself, or in a folder or an archive. `cargo grader pack` makes such an archive."
+            "Submit your render_pt.rs by itself, or in a folder or an archive. `cargo grader pack` creates such an archive."
         }
         Cause::DoesNotCompile => {
             "Start with the first error; later ones often follow from it. `cargo arty` shows the same messages in a second. \
@@ -63,16 +63,16 @@ pub fn hint(cause: &Cause) -> &str {
              scene with `cargo arty` to see the line."
         }
         Cause::TodoLeft => {
-            "The program stops at such a mark. While a technique is not done, let it use plain BSDF sampling, as the \
-             starting file does: then the others can be judged."
+            "The program panics there. Until a technique is finished, let it fall back to plain BSDF sampling, as the \
+             starting file does, so that the others can be graded."
         }
         Cause::DoesNotFinish { .. } => {
             "Look for an endless loop, and for work per bounce that grows with the number of lights. A path has at most \
              `max_bounces` bounces, and samples one light at each."
         }
         Cause::ConstantFactor { .. } => {
-            "A constant is missing, or is there once too often. Write down the estimator for one point on one light with all \
-             its factors, say where each comes from, and compare it with your product."
+            "A constant factor is missing, or is applied once too often. Write down the estimator for one point on one light \
+             with all its factors, note where each comes from, and compare it with your product."
         }
         Cause::NotBegun => {
             "Start with the first task: at each hit point, choose a random point on a random light, test whether it is \
@@ -173,20 +173,20 @@ fn what_is_wrong(check: &CheckResult) -> String {
 fn what_is_right(check: &CheckResult) -> String {
     let (scene, technique) = (&check.id.scene, check.id.technique);
     let quantity = match check.id.kind {
-        CheckKind::MisWeights => return format!("the MIS weights are right (`{technique}`)"),
+        CheckKind::MisWeights => return format!("the MIS weights are correct (`{technique}`)"),
         CheckKind::LightPick => {
-            return format!("each of three lights contributes what it should (`{technique}`)");
+            return format!("each of the three lights contributes what it should (`{technique}`)");
         }
         CheckKind::RayBudget => return format!("no path traces too many rays (`{technique}`)"),
-        CheckKind::PathLength => return format!("paths are as long as allowed (`{technique}`)"),
-        CheckKind::Stability => return format!("extreme scenes are right (`{technique}`)"),
-        CheckKind::HiddenVariants => return format!("random scenes are right (`{technique}`)"),
+        CheckKind::PathLength => return format!("paths reach the maximum length (`{technique}`)"),
+        CheckKind::Stability => return format!("extreme scenes are rendered correctly (`{technique}`)"),
+        CheckKind::HiddenVariants => return format!("random scenes are rendered correctly (`{technique}`)"),
         CheckKind::Efficiency => "the variance",
         CheckKind::Randomness => "the use of random numbers",
         CheckKind::Metamorphic => "the image of the changed scene",
         CheckKind::ClosedForm | CheckKind::MeanBias | CheckKind::WhiteFurnace => light(check),
     };
-    format!("{quantity} is right in {scene} (`{technique}`)")
+    format!("{quantity} is correct in {scene} (`{technique}`)")
 }
 
 /// The light that a check looks at.

@@ -51,7 +51,7 @@ fn of_reason(reason: Reason) -> &'static str {
         Reason::RayBudget => "more rays than the sheet allows",
         Reason::Numerics => "some samples are NaN, infinite or negative",
         Reason::Timeout => "the program did not finish in time",
-        Reason::Crash => "the program ended early",
+        Reason::Crash => "the program ended unexpectedly",
         Reason::Violation => "the program's answer was malformed",
     }
 }
@@ -119,7 +119,7 @@ fn light_pick(shares: &LightShares) -> String {
 /// What the lights contribute.
 fn light_share(shares: &LightShares) -> String {
     let Some(wrong) = shares.wrong else {
-        return "each of three lights contributes what it should".to_owned();
+        return "each of the three lights contributes what it should".to_owned();
     };
     let number = wrong + 1;
     let Some(excess) = shares.excess.get(wrong as usize).copied().flatten() else {
@@ -127,7 +127,7 @@ fn light_share(shares: &LightShares) -> String {
     };
     let share = percent(1.0 + excess, if excess.abs() < 0.05 { 2 } else { 0 });
     if is_common(shares, 1.0 + excess) {
-        format!("each of three lights contributes {share} of what it should")
+        format!("each of the three lights contributes {share} of what it should")
     } else {
         format!("light {number} of 3 contributes {share} of what it should")
     }
@@ -170,9 +170,9 @@ fn randomness(numbers: RandomNumbers) -> String {
 fn path_length(paths: &PathLengths) -> String {
     let asked = count(paths.max_bounces as usize, "bounce");
     match paths.limit {
-        None => format!("paths are given up to {asked}"),
+        None => format!("paths reach up to {asked}"),
         Some(limit) => format!(
-            "no path gets beyond {} where `max_bounces` allows {}: only `max_bounces` and Russian roulette may end a path",
+            "no path exceeds {}, although `max_bounces` allows {}: only `max_bounces` and Russian roulette may end a path",
             count(limit as usize, "bounce"),
             paths.max_bounces
         ),
@@ -216,7 +216,7 @@ pub fn remarks(check: &CheckResult) -> Vec<String> {
         Some(Evidence::Efficiency(noise)) if noise.is_noisier && check.verdict == Verdict::Pass => {
             let Some(own) = noise.ratios.first() else { return Vec::new() };
             vec![format!(
-                "right, but with {} times the variance of the solution at the same number of samples",
+                "correct, but with {} times the variance of the solution at the same number of samples",
                 trimmed(own.ratio, 1)
             )]
         }
@@ -258,10 +258,10 @@ pub fn about(kind: CheckKind) -> &'static str {
     match kind {
         CheckKind::ClosedForm => "compares each pixel with a closed form, without a reference image",
         CheckKind::Efficiency => {
-            "compares the variance with the solution's: means alone cannot tell whether a technique is used"
+            "compares the variance with the solution's: the mean alone does not show whether a technique is used"
         }
         CheckKind::HiddenVariants => {
-            "compares means with the solution's in scenes drawn at random for each seed"
+            "compares means with the solution's in scenes generated at random from the seed"
         }
         CheckKind::LightPick => {
             "compares how often each light is selected with the probability you divide by"
@@ -271,13 +271,13 @@ pub fn about(kind: CheckKind) -> &'static str {
             "changes the scene in ways whose effect on the image is known, such as rotating it"
         }
         CheckKind::MisWeights => {
-            "measures single MIS weights in scenes where only one technique finds the light"
+            "measures individual MIS weights in scenes where only one technique can find the light"
         }
         CheckKind::Randomness => {
-            "compares renderings with each other: each random number must come from the sampler and be used once"
+            "compares renderings with each other: random numbers must come from the sampler, and each may be used only once"
         }
         CheckKind::PathLength => "counts the bounces of paths in a closed room of mirrors",
-        CheckKind::RayBudget => "counts the rays of each path",
+        CheckKind::RayBudget => "counts the rays traced for each path",
         CheckKind::Stability => "tests very small and very large scenes, radiances and densities",
         CheckKind::WhiteFurnace => {
             "renders a closed surface that emits uniformly, where the energy of each bounce is known"

@@ -10,9 +10,12 @@ pub fn fault(fault: &Fault) -> String {
         Fault::Panic(message) => format!("the program panicked: {message}"),
         Fault::Timeout(time) => format!("the program did not finish within {}", seconds(*time)),
         Fault::TooSlow(time) => {
-            format!("the program is too slow: it did not finish an eighth of a job within {}", seconds(*time))
+            format!(
+                "the program is too slow: it did not finish an eighth of its work within {}",
+                seconds(*time)
+            )
         }
-        Fault::Crash(status) => format!("the program ended early ({status})"),
+        Fault::Crash(status) => format!("the program ended unexpectedly ({status})"),
         Fault::Malformed(what) => format!("the program's answer was malformed ({what})"),
     }
 }

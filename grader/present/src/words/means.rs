@@ -43,10 +43,8 @@ pub(super) fn variant(variant: &VariantTest, verdict: &Verdict) -> String {
 /// The same in scenes that are changed.
 pub(super) fn change(change: &ChangeTest, verdict: &Verdict) -> String {
     match verdict {
-        Verdict::Pass if change.changes == 1 => {
-            "1 change of the scene has the effect it should have".to_owned()
-        }
-        Verdict::Pass => format!("{} changes of the scene have the effect they should have", change.changes),
+        Verdict::Pass if change.changes == 1 => "1 scene change had the expected effect".to_owned(),
+        Verdict::Pass => format!("{} scene changes had the expected effect", change.changes),
         _ => format!("with {}, {}", scene_change(change.change), mean(&change.test, verdict)),
     }
 }
@@ -55,23 +53,23 @@ fn scene_change(change: SceneChange) -> &'static str {
     match change {
         SceneChange::Brighter => "all lights 1000 times as bright",
         SceneChange::Dimmer => "all lights 1/1000 as bright",
-        SceneChange::Larger => "all lengths 100 times as long",
-        SceneChange::Smaller => "all lengths 1/100 as long",
+        SceneChange::Larger => "the scene scaled by 100",
+        SceneChange::Smaller => "the scene scaled by 1/100",
         SceneChange::Rotated => "the scene rotated",
         SceneChange::Moved => "the scene moved",
         SceneChange::Tessellated => "triangles split into smaller ones",
         SceneChange::LightsSplit => "each light split into two",
         SceneChange::BlackObjects => "black objects added beside the scene",
-        SceneChange::LightsApart => "the lights in two scenes whose images are added",
+        SceneChange::LightsApart => "the lights distributed over two scenes whose images are added",
     }
 }
 
 fn right(test: &MeanTest) -> String {
     let (Some(effect), Some([low, high])) = (test.effect, test.interval) else {
-        return "the mean is right".to_owned();
+        return "the mean is correct".to_owned();
     };
     let within = effect.abs() + 0.5 * (high - low);
-    format!("the mean is right to within {} ({} allowed)", percent(within, 2), percent(test.tolerance, 1))
+    format!("the mean is correct to within {} ({} allowed)", percent(within, 2), percent(test.tolerance, 1))
 }
 
 fn too_noisy(test: &MeanTest) -> String {

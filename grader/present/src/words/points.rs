@@ -30,7 +30,7 @@ pub fn not_covered(points: &Points) -> String {
         parts.push(staff_only(points.staff_only));
     }
     match points.manual {
-        Some(given) => parts.push(format!("{given} of {} given by your tutor", points.manual_max)),
+        Some(given) => parts.push(format!("your tutor gave {given} of {}", points.manual_max)),
         None if points.manual_max == 1.0 => parts.push("1 more is graded by your tutor".to_owned()),
         None if points.manual_max > 0.0 => {
             parts.push(format!("{} more are graded by your tutor", points.manual_max));

@@ -31,7 +31,7 @@ pub fn why_not(why: &WhyNot) -> String {
         }
         WhyNot::OneLight => "there is only one light to select",
         WhyNot::NotEnclosed => "the camera is not enclosed, so energy is lost",
-        WhyNot::NotUniform => "the enclosure does not emit uniformly: there is no closed form",
+        WhyNot::NotUniform => "the enclosure does not emit uniformly, so there is no closed form",
         WhyNot::NotFlatDiffuse => "closed forms need flat, diffuse surfaces without textures",
         WhyNot::SeveralBounces => "closed forms are known for one bounce only",
         WhyNot::ManyLights(lights) => {
@@ -39,10 +39,10 @@ pub fn why_not(why: &WhyNot) -> String {
         }
         WhyNot::SpotLight => "there is no closed form for spot lights",
         WhyNot::PartlyHidden => "an area light is partly occluded",
-        WhyNot::UnknownNoise => "the reference does not store the variance of the other techniques",
+        WhyNot::UnknownNoise => "the reference does not contain the variance of the other techniques",
         WhyNot::AlikeNoise { at_most, needed } => {
             return format!(
-                "the other techniques have at most {at_most:.1} times the variance; {} times are needed to tell them apart",
+                "the other techniques have at most {at_most:.1} times the variance of this one; a factor of {} is needed to tell them apart",
                 significant(*needed)
             );
         }
@@ -52,8 +52,8 @@ pub fn why_not(why: &WhyNot) -> String {
         }
         WhyNot::Bounces { min, max } => return format!("this check needs {min} to {max} bounces"),
         WhyNot::EmissionOff => "this check cannot be combined with `emission_on_hit: off` here",
-        WhyNot::SceneNotHere => "the scene is not available here: staff have it",
-        WhyNot::NoSolution => "there is no solution here to compare with: staff have it",
+        WhyNot::SceneNotHere => "the scene is not part of this checkout: only staff have it",
+        WhyNot::NoSolution => "the solution is not part of this checkout: only staff have it",
     };
     text.to_owned()
 }

@@ -16,10 +16,11 @@ pub(super) fn stability(test: &StabilityTest, verdict: &Verdict) -> String {
             more => format!("{}; {more} more findings are among the remarks", sentence(first)),
         },
         _ => {
-            let range = "right for scales and radiances from 1/1024 to 1024 and densities from 1e-12 to 1e12";
+            let range =
+                "correct for scales and radiances from 1/1024 to 1024 and densities from 1e-12 to 1e12";
             match test.findings.len() {
                 0 => format!("{range}, and beyond"),
-                more => format!("{range}; {} beyond", count(more, "remark")),
+                more => format!("{range}; {} outside this range", count(more, "remark")),
             }
         }
     }

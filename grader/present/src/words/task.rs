@@ -7,7 +7,7 @@ pub fn task_state(task: &TaskResult) -> String {
     let is_missing = task.points.is_some_and(|points| points + task.staff_only < task.max);
     match &task.state {
         TaskState::Graded { missing } if missing.is_empty() && is_missing => {
-            "checks that students do not see did not pass".to_owned()
+            "a check that only staff can see did not pass".to_owned()
         }
         TaskState::Graded { missing } => {
             missing.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
@@ -16,7 +16,7 @@ pub fn task_state(task: &TaskResult) -> String {
             format!("{check} must pass for any points in this task")
         }
         TaskState::RequiredCheckMissing(None) => {
-            "a check that students do not see must pass for any points in this task".to_owned()
+            "a check that only staff can see must pass for any points in this task".to_owned()
         }
         TaskState::RequiredTaskMissing(other) => {
             format!("the required checks of {other} must pass for any points in this task")

@@ -14,13 +14,13 @@ const EXACT: f64 = 1e-3;
 pub(super) fn weights(test: &WeightTest) -> String {
     let measured = test.measured.as_ref();
     match test.fault {
-        None => measured.map_or_else(|| "the weights are right".to_owned(), right),
+        None => measured.map_or_else(|| "the weights are correct".to_owned(), right),
         Some(WeightFault::NotANumber { light, bsdf }) => format!(
             "a path returns NaN or infinity where the density per solid angle is {light:.1e} for the light sample and \
              {bsdf:.1e} for the BSDF sample"
         ),
         Some(WeightFault::LaterVertices) => {
-            "the weights are right at the first vertex of a path and wrong at later ones: \
+            "the weights are correct at the first vertex of a path and wrong at later ones: \
             the density that you remember is not that of the last bounce"
                 .to_owned()
         }
@@ -35,9 +35,11 @@ fn right(measured: &MeasuredWeights) -> String {
     let kind = match measured.light.whole_exponents() {
         Some([1, 0, 0, 0, 0]) => "balance heuristic",
         Some([2, 0, 0, 0, 0]) => {
-            "power heuristic with exponent 2, which is right too (the sheet asks for the balance heuristic)"
+            "power heuristic with exponent 2, which is correct, too (the sheet asks for the balance heuristic)"
         }
-        _ => "the weights rise with the light's density, but are not those of the balance heuristic",
+        _ => {
+            "the weights rise with the density of the light sample, but are not those of the balance heuristic"
+        }
     };
     format!("{kind}; the weights sum to 1 to within {:.0e}", measured.largest_deviation())
 }
@@ -50,12 +52,11 @@ fn only_way(light: OnlyWay, measured: Option<&MeasuredWeights>) -> String {
     };
     let weight = measured.and_then(|measured| measured.only_way.iter().find(|other| other.light == light));
     match weight.map(|weight| weight.weight) {
-        Some(Some(weight)) => format!(
-            "{name} has the weight {} instead of 1: only one technique can find it",
-            trimmed(weight, 3)
-        ),
+        Some(Some(weight)) => {
+            format!("{name} has weight {} instead of 1: only one technique can find it", trimmed(weight, 3))
+        }
         Some(None) => format!("{name} returns NaN or infinity"),
-        None => format!("{name} does not have the weight 1: only one technique can find it"),
+        None => format!("{name} does not have weight 1: only one technique can find it"),
     }
 }
 
@@ -84,7 +85,12 @@ fn why(light: WeightForm, bsdf: WeightForm) -> String {
             "neither weight is a simple function of the densities".to_owned()
         }
         _ => {
-            let of = |name: &str, form| fault(form).map(|fault| format!("in the weight of {name}, {fault}"));
+            let of = |name: &str, form| match form {
+                WeightForm::Other => {
+                    Some(format!("the weight of {name} is not a simple function of the densities"))
+                }
+                _ => fault(form).map(|fault| format!("in the weight of {name}, {fault}")),
+            };
             let found = [of("light samples", light), of("BSDF samples", bsdf)];
             let found: Vec<String> = found.into_iter().flatten().collect();
             if found.is_empty() { "the reason is unknown".to_owned() } else { found.join("; ") }
@@ -95,9 +101,9 @@ fn why(light: WeightForm, bsdf: WeightForm) -> String {
 fn constant(light: f64, bsdf: f64) -> String {
     let is = |weight: f64, value: f64| (weight - value).abs() < EXACT;
     if is(light, 0.0) && is(bsdf, 1.0) {
-        "light samples have the weight 0: this is BSDF sampling".to_owned()
+        "light samples have weight 0: this is BSDF sampling alone".to_owned()
     } else if is(light, 1.0) && is(bsdf, 0.0) {
-        "lights that are hit have the weight 0: this is next event estimation alone".to_owned()
+        "lights that are hit have weight 0: this is next event estimation alone".to_owned()
     } else {
         format!(
             "the weights ignore the densities: they are always {} for light samples and {} for BSDF samples",
@@ -110,7 +116,7 @@ fn constant(light: f64, bsdf: f64) -> String {
 /// What is wrong with one weight; none if nothing is.
 fn fault(form: WeightForm) -> Option<String> {
     if let WeightForm::Constant(_) = form {
-        return Some("the densities are ignored: it is constant".to_owned());
+        return Some("the densities are ignored: the weight is constant".to_owned());
     }
     let Some([ratio, distance, cos, lights, area]) = form.whole_exponents() else {
         return Some(unclear(form));
@@ -168,7 +174,7 @@ fn unclear(form: WeightForm) -> String {
             )
         }
         WeightForm::Constant(_) | WeightForm::Other => {
-            "it is not a simple function of the densities".to_owned()
+            "the dependence on the densities has no simple form".to_owned()
         }
     }
 }

@@ -11,7 +11,7 @@ pub(crate) fn weights(weights: &MeasuredWeights) -> Option<String> {
     if weights.points.is_empty() {
         return None;
     }
-    svg("MIS weights over the ratio of the densities", |area| draw(weights, area).ok())
+    svg("MIS weights against the ratio of the densities", |area| draw(weights, area).ok())
 }
 
 fn draw<'a>(weights: &MeasuredWeights, area: &super::Area<'a>) -> Result<(), Failure<'a>> {

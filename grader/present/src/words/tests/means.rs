@@ -37,7 +37,7 @@ fn means_say_how_far_off_and_where() {
 #[test]
 fn means_that_are_right_or_too_noisy_say_how_well_they_are_known() {
     let right = MeanTest { effect: Some(0.001), interval: Some([-0.003, 0.005]), ..mean_test() };
-    assert_eq!(passes(Evidence::MeanBias(right)), "the mean is right to within 0.5 % (2 % allowed)");
+    assert_eq!(passes(Evidence::MeanBias(right)), "the mean is correct to within 0.5 % (2 % allowed)");
     for (detectable, expected) in [
         (Some(8.473), "too noisy to judge"),
         (None, "too noisy to judge"),
@@ -57,7 +57,7 @@ fn changed_and_random_scenes_say_which_one_decided() {
         || ChangeTest { change: SceneChange::Rotated, changes: 9, is_biased: true, test: mean_test() };
     let variant = || VariantTest { scene: 1, scenes: 2, test: mean_test() };
     for (text, expected) in [
-        (passes(Evidence::Metamorphic(change())), "9 changes of the scene have the effect they should have"),
+        (passes(Evidence::Metamorphic(change())), "9 scene changes had the expected effect"),
         (fails(Evidence::Metamorphic(change())), "with the scene rotated, the mean is 12.5 % too dark"),
         (fails(Evidence::HiddenVariants(variant())), "in scene 1 of 2, the mean is 12.5 % too dark"),
         (
@@ -87,8 +87,11 @@ fn bad_samples_and_faults_decide_whatever_the_mean() {
     for (fault, expected) in [
         (Fault::Panic("index out of bounds".to_owned()), "the program panicked: index out of bounds"),
         (Fault::Timeout(29.998172652), "the program did not finish within 30 s"),
-        (Fault::TooSlow(3.75), "the program is too slow: it did not finish an eighth of a job within 3.8 s"),
-        (Fault::Crash("signal 9".to_owned()), "the program ended early (signal 9)"),
+        (
+            Fault::TooSlow(3.75),
+            "the program is too slow: it did not finish an eighth of its work within 3.8 s",
+        ),
+        (Fault::Crash("signal 9".to_owned()), "the program ended unexpectedly (signal 9)"),
         (Fault::Malformed("3 pixels".to_owned()), "the program's answer was malformed (3 pixels)"),
     ] {
         let check =

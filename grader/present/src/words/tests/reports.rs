@@ -18,7 +18,7 @@ fn what_was_not_run_says_why() {
         (WhyNot::Bounces { min: 1, max: 1 }, "this check needs exactly 1 bounce"),
         (
             WhyNot::AlikeNoise { at_most: 3.04, needed: 20.0 },
-            "the other techniques have at most 3.0 times the variance; 20 times are needed to tell them apart",
+            "the other techniques have at most 3.0 times the variance of this one; a factor of 20 is needed to tell them apart",
         ),
     ] {
         assert_eq!(why_not(&why), expected);
@@ -32,7 +32,7 @@ fn tasks_and_sums_say_where_their_points_are() {
     let required = id(CheckKind::MisWeights, "scripted");
     for (state, expected) in [
         (TaskState::Graded { missing }, "mean-bias/a/nee/8, efficiency/b/nee/8"),
-        (TaskState::Graded { missing: Vec::new() }, "checks that students do not see did not pass"),
+        (TaskState::Graded { missing: Vec::new() }, "a check that only staff can see did not pass"),
         (
             TaskState::RequiredCheckMissing(Some(required)),
             "mis-weights/scripted/nee/8 must pass for any points in this task",
@@ -52,7 +52,7 @@ fn tasks_and_sums_say_where_their_points_are() {
     assert_eq!(not_covered(&points(None, 0.0)), "10 more are graded by your tutor");
     assert_eq!(
         not_covered(&points(Some(7.5), 2.5)),
-        "up to 2.5 points are added after submission; 7.5 of 10 given by your tutor"
+        "up to 2.5 points are added after submission; your tutor gave 7.5 of 10"
     );
     assert_eq!(not_covered(&Points::default()), "");
 }
@@ -73,7 +73,7 @@ fn causes_say_what_was_seen() {
         said(&report, &known),
         [
             "Likely cause: A title",
-            "the mean radiance is 0.88 ± 0.01 times what it should be in box (`nee`); the mean radiance is right in box (`nee`)"
+            "the mean radiance is 0.88 ± 0.01 times what it should be in box (`nee`); the mean radiance is correct in box (`nee`)"
         ]
     );
     let factor = Cause::ConstantFactor { factor: 0.5, scenes: ["a", "b"].map(str::to_owned).into() };

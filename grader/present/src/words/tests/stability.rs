@@ -56,7 +56,7 @@ fn stability_names_place_deviation_and_cause() {
         ),
         (
             passes(of(vec![sum.clone()])),
-            "right for scales and radiances from 1/1024 to 1024 and densities from 1e-12 to 1e12; 1 remark beyond",
+            "correct for scales and radiances from 1/1024 to 1024 and densities from 1e-12 to 1e12; 1 remark outside this range",
         ),
     ] {
         assert_eq!(text, expected);

@@ -24,7 +24,7 @@ fn noise_names_the_technique_that_is_missing() {
         assert_eq!(text, expected);
     }
     let noisier = check(Verdict::Pass, Evidence::Efficiency(noise(2.5, None)));
-    let expected = "right, but with 2.5 times the variance of the solution at the same number of samples";
+    let expected = "correct, but with 2.5 times the variance of the solution at the same number of samples";
     assert_eq!(remarks(&noisier), [expected]);
 }
 
@@ -44,14 +44,14 @@ fn selection_is_only_blamed_where_lights_differ() {
         ),
         (
             [Some(-2.0 / 3.0); 3],
-            "each of three lights contributes 33 % of what it should: divide by the selection probability",
+            "each of the three lights contributes 33 % of what it should: divide by the selection probability",
         ),
-        ([Some(1.0); 3], "each of three lights contributes 200 % of what it should"),
+        ([Some(1.0); 3], "each of the three lights contributes 200 % of what it should"),
         ([None, Some(0.0), Some(0.0)], "light 1 of 3 contributes NaN or infinity"),
     ] {
         assert_eq!(fails(shares(excess, Some(0))), expected);
     }
-    assert_eq!(passes(shares([Some(0.0); 3], None)), "each of three lights contributes what it should");
+    assert_eq!(passes(shares([Some(0.0); 3], None)), "each of the three lights contributes what it should");
 }
 
 #[test]

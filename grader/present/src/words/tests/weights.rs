@@ -27,11 +27,11 @@ fn weights_say_what_they_wrongly_depend_on() {
         ),
         (
             wrong(measured(WeightForm::Constant(0.0), WeightForm::Constant(0.0), [1.0; 2])),
-            "light samples have the weight 0: this is BSDF sampling",
+            "light samples have weight 0: this is BSDF sampling alone",
         ),
         (
             wrong(measured(WeightForm::Constant(1.0), WeightForm::Constant(1.0), [1.0; 2])),
-            "lights that are hit have the weight 0: this is next event estimation alone",
+            "lights that are hit have weight 0: this is next event estimation alone",
         ),
         (
             wrong(both(powers([-1.0, 0.0, 0.0, 0.0, 0.0]), [1.0; 2])),
@@ -51,13 +51,18 @@ fn weights_say_what_they_wrongly_depend_on() {
             "the two weights of a path sum to between 1 and 1.5 instead of 1; in the weight of light samples, the density \
              of the light lacks the selection probability (spurious factor n for n lights)",
         ),
+        (
+            wrong(measured(WeightForm::Other, powers([1.0, 0.0, 0.0, 0.0, 0.0]), [1.0, 16.759])),
+            "the two weights of a path sum to between 1 and 16.759 instead of 1; the weight of light samples is not a \
+             simple function of the densities",
+        ),
         (wrong(both(WeightForm::Other, [1.0; 2])), "neither weight is a simple function of the densities"),
         (
             fails(Evidence::MisWeights(WeightTest {
                 fault: Some(WeightFault::OnlyWay(OnlyWay::PointLight)),
                 measured: Some(both(powers([1.0, 0.0, 0.0, 0.0, 0.0]), [1.0; 2])),
             })),
-            "a point light has the weight 0.5 instead of 1: only one technique can find it",
+            "a point light has weight 0.5 instead of 1: only one technique can find it",
         ),
         (
             fails(Evidence::MisWeights(WeightTest {
