@@ -22,8 +22,8 @@ use verdict::rubric::Rubric;
 
 /// Grade a class: a folder of submissions as exported by Moodle or ILIAS, or with one folder, archive or file per student
 ///
-/// Applies deadlines and extensions, and writes a gradebook, an overview page, and the
-/// completed grade tables of course systems.
+/// Applies deadlines and extensions, and writes a gradebook, an overview page, and the completed grade tables of course
+/// systems.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// Folder with the submissions

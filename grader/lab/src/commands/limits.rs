@@ -48,6 +48,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     };
     let lines: String = wrong.iter().map(line).collect();
     let scenes = measured.findings.len();
-    print(&format!("{lines}{} of {scenes} extreme scenes are right\n", scenes - wrong.len()))?;
+    print(&format!("{lines}{} of {scenes} extreme scenes are rendered correctly\n", scenes - wrong.len()))?;
     Ok(ExitCode::from(u8::from(!wrong.is_empty())))
 }

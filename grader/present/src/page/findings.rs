@@ -31,7 +31,7 @@ pub(super) fn tasks(report: &Report) -> Markup {
 fn advice(task: &TaskResult, report: &Report) -> Markup {
     let Some(&wrong) = report.lacking(&task.id).first() else {
         let state = words::task_state(task);
-        return html! { @if state.is_empty() { "full points" } @else { (state) } };
+        return html! { @if state.is_empty() { "nothing to fix" } @else { (state) } };
     };
     html! {
         (prose(&words::explanation(wrong))) "."
@@ -158,7 +158,7 @@ pub(super) fn skipped(report: &Report) -> Markup {
         @if !report.skipped.is_empty() {
             h2 { "Skipped checks" }
             details {
-                summary { (count(report.skipped.len(), "check")) " do not apply to their scene, whatever is submitted" }
+                summary { (count(report.skipped.len(), "check")) " not applicable to the scene, whatever is submitted" }
                 ul { @for entry in &report.skipped {
                     li { (entry.kind) " with " (entry.technique) ", " (entry.scene) ": " (prose(&words::why_not(&entry.why))) }
                 } }

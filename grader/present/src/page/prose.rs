@@ -2,14 +2,26 @@
 
 use maud::{Markup, html};
 
-/// A sentence with the text between pairs of backticks as code. Everything is escaped; a backtick without a partner
-/// is shown as it is.
+/// A sentence with the text between pairs of backticks as code. Everything is escaped; a backtick without a partner, or
+/// with nothing in between, is shown as it is.
 pub(super) fn prose(text: &str) -> Markup {
-    let parts: Vec<&str> = text.split('`').collect();
+    let mut rest = text;
+    // Each span is plain text, then either a single backtick or code.
+    let mut spans = Vec::new();
+    while let Some((plain, after)) = rest.split_once('`') {
+        let (span, next) = match after.split_once('`') {
+            Some((code, next)) if !code.is_empty() => ((plain, "", code), next),
+            _ => ((plain, "`", ""), after),
+        };
+        spans.push(span);
+        rest = next;
+    }
     html! {
-        @for (index, part) in parts.iter().enumerate() {
-            @if index % 2 == 0 { (part) } @else if index + 1 < parts.len() { code { (part) } } @else { "`" (part) }
+        @for (plain, backtick, code) in spans {
+            (plain) (backtick)
+            @if !code.is_empty() { code { (code) } }
         }
+        (rest)
     }
 }
 
@@ -26,6 +38,7 @@ mod tests {
             ("`a` and `<b>`", "<code>a</code> and <code>&lt;b&gt;</code>"),
             ("one ` only", "one ` only"),
             ("`a` and ` only", "<code>a</code> and ` only"),
+            ("a```b", "a```b"),
             ("`", "`"),
         ] {
             assert_eq!(prose(text).into_string(), expected);
