@@ -22,7 +22,7 @@ tasks:
     title: A point light
     points: 10
     checks:
-      - { check: mean-bias, scene: point_plane, technique: nee, max_bounces: 1, required: true, tolerance: 0.01 }
+      - { check: mean-bias, scene: point_plane, technique: mis, max_bounces: 1, required: true, tolerance: 0.01 }
 ";
 
 /// A folder with a rubric and a class.

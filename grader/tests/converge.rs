@@ -89,7 +89,7 @@ fn a_program_that_panics_has_no_curve_and_stops_nobody_else() {
 #[test]
 fn without_a_solution_the_comparison_is_left_out_with_the_reason() {
     let convergence = brief(&workspace(), &program(&solution()), None, 1).expect("the harness works");
-    assert!(convergence.left_out[0].why.contains("no solution"), "{:?}", convergence.left_out);
+    assert!(convergence.left_out[0].why.contains("does not have the solution"), "{:?}", convergence.left_out);
     for panel in &convergence.panels {
         let roles: Vec<Role> = panel.curves.iter().map(|curve| curve.role).collect();
         assert_eq!(roles, [Role::Submission, Role::Baseline]);

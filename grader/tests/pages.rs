@@ -19,7 +19,7 @@ tasks:
     title: Light
     points: 10
     checks:
-      - { check: mean-bias, scene: point_plane, technique: nee, max_bounces: 1, required: true, tolerance: 0.01 }
+      - { check: mean-bias, scene: point_plane, technique: mis, max_bounces: 1, required: true, tolerance: 0.01 }
       - { check: white-furnace, scene: furnace_diffuse, technique: mis, max_bounces: 3, tolerance: 0.01 }
       - { check: mis-weights, technique: mis, max_bounces: 1 }
       - { check: hidden-variants, technique: nee, max_bounces: 1, tolerance: 0.2 }

@@ -63,9 +63,9 @@ fn every_save_is_graded_whatever_is_saved() {
     let save = |text: &str| std::fs::write(&file, text).expect("it can be written");
     save(&starter);
     let watching = Watching::start(folder.path());
-    watching.expect("the mean is black");
+    watching.expect("the image is black");
     save("this is no program");
-    watching.expect("it does not compile");
+    watching.expect("does not compile");
     std::fs::remove_file(&file).expect("it can be removed");
     watching.expect("waiting: ");
     // As many editors save: another file is given the name.

@@ -317,7 +317,7 @@ mod tests {
         let rules = |zone: &str| Rules { time_zone: zone.into(), ..SHEET };
         let until = |deadline: &str| Course { deadline: Some(deadline.into()), extensions: Vec::new() };
         for (zone, deadline, expected) in [
-            ("Berlin", "2026-05-21 23:59", "no time zone"),
+            ("Berlin", "2026-05-21 23:59", "unknown time zone"),
             ("Europe/Berlin", "21.5.2026", "is no time"),
             ("Europe/Berlin", "2026-05-21", "no time of day"),
             ("Europe/Berlin", "2026-03-29 02:30", "did not exist"),

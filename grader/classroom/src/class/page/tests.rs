@@ -13,7 +13,7 @@ tasks:
     title: A light
     points: 10
     checks:
-      - { check: mean-bias, scene: point_plane, technique: nee, max_bounces: 1, required: true }
+      - { check: mean-bias, scene: point_plane, technique: mis, max_bounces: 1, required: true }
   - { id: '2', title: Why, points: 5, manual: true }
 ";
 
