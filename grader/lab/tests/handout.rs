@@ -104,7 +104,7 @@ fn a_starting_file_with_the_solution_in_it_is_not_handed_out() {
     let secrets = Secrets::of(&solution()).expect("the solution has task blocks");
     let starter = std::fs::read_to_string(workspace.student_file()).expect("it is there");
     assert_eq!(secrets.find(&starter), None);
-    let block = "radiance += throughput * self.direct_light(scene, &hit, &bsdf, sampler);";
+    let block = "let p_ne = p_light(scene) * sample.pdf_area * distance * distance / sample.cos_light;";
     let spoilt = starter.replacen("// END 5.1a", &format!("{block}\n// END 5.1a"), 1);
     assert_ne!(spoilt, starter);
     assert!(secrets.find(&spoilt).is_some(), "one line is enough");
