@@ -271,7 +271,10 @@ fn gradescope_s_script_gives_results_also_where_there_is_nothing_to_grade() {
     let broken = run();
     assert_eq!(broken["score"], 0.0);
     let output = broken["output"].as_str().expect("a text");
-    assert!(output.contains("does not compile") && output.contains("received 1:20 h after the deadline"), "{output}");
+    assert!(
+        output.contains("does not compile") && output.contains("received 1:20 h after the deadline"),
+        "{output}"
+    );
 
     std::fs::write(folder.path().join("submission_metadata.json"), "{}}").expect("it can be written");
     assert_eq!(run()["score"], 0.0, "metadata that cannot be read cost no results");

@@ -104,6 +104,7 @@ fn every_kind_of_check_fails_on_a_mistake_and_passes_correct_programs() {
         ("mean-bias/cornell_box_point/nee/1", "receiver-cosine-missing"),
         ("metamorphic/light_behind_wall/nee/8", "samples-clamped-at-ten"),
         ("mis-weights/scripted/mis/3", "mis-weights-swapped"),
+        ("path-length/scripted/nee/16", "own-limit-of-ten"),
         ("randomness/cornell_box/nee/8", "same-numbers-for-neighbours"),
         ("ray-budget/scripted/nee/3", "all-lights-with-a-shadow-ray-each"),
         ("stability/scripted/mis/3", "samples-clamped-at-ten"),

@@ -31,7 +31,7 @@ use std::process::ExitCode;
 
 /// The folder that is written: `scenes/` at the top of the repository.
 fn scenes_folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join("scenes")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
 }
 
 fn main() -> ExitCode {
