@@ -15,7 +15,7 @@ use super::context::settings_of;
 use super::{Check, CheckOutcome, GradeContext, JobError, Observation, Quantity, SceneWithReference};
 use crate::reference::SIZE;
 use crate::statistics::batches::Batches;
-use crate::statistics::bias::Expected;
+use crate::statistics::expected::Expected;
 use crate::statistics::variance::VarianceRatio;
 
 /// Minimum variance of the other technique, relative to the tested one, for a scene to distinguish them.

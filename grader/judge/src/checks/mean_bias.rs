@@ -7,7 +7,7 @@ use verdict::rubric::{CheckSpec, EmissionOnHit};
 use super::means::{self, Picture};
 use super::{Check, CheckOutcome, GradeContext, JobError, Observation, SceneWithReference};
 use crate::reference::Reference;
-use crate::statistics::bias::Expected;
+use crate::statistics::expected::Expected;
 
 pub(super) struct MeanBias;
 

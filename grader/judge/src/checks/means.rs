@@ -11,7 +11,7 @@ use verdict::rubric::CheckSpec;
 use super::context::{anomaly, replay_of, settings_of, switches_of};
 use super::{CheckOutcome, GradeContext, JobError};
 use crate::reference::SIZE;
-use crate::statistics::bias::Expected;
+use crate::statistics::expected::Expected;
 use crate::statistics::regions::{pyramid, weighted_image};
 use crate::statistics::sequential::{Decision, Judgement, SampleRequest, SequentialTest, judge};
 

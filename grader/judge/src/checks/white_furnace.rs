@@ -22,7 +22,7 @@ use super::{
     Check, CheckOutcome, GradeContext, JobError, Observation, Quantity, SceneWithReference, mean_bias,
 };
 use crate::reference::SIZE;
-use crate::statistics::bias::Expected;
+use crate::statistics::expected::Expected;
 use crate::statistics::sequential::{Decision, Judgement};
 
 pub(super) struct WhiteFurnace;

@@ -11,7 +11,7 @@ use host::protocol::{RenderJob, Switches};
 
 use super::file::layer_name;
 use super::{Moments, Reference, ReferenceView, SIZE};
-use crate::statistics::bias::Expected;
+use crate::statistics::expected::Expected;
 use harness::build::SubmissionProgram;
 use harness::host_process::HostProcess;
 use verdict::error::{Error, Result};

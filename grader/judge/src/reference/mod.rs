@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 
 use arty::integrator::Technique;
 
-use crate::statistics::bias::Expected;
+use crate::statistics::expected::Expected;
 use verdict::rubric::View;
 
 pub use file::{load, save};

@@ -7,7 +7,7 @@ use arty::integrator::Settings;
 use arty::scene::SceneDescription;
 
 use super::make::live;
-use crate::statistics::bias::Expected;
+use crate::statistics::expected::Expected;
 use harness::build::{Framework, SubmissionProgram, compile, recipe};
 use harness::host_process::HostProcess;
 use harness::sandbox::Limits;

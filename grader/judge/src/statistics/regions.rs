@@ -5,7 +5,7 @@
 
 use verdict::check::{Channel, RegionId, RegionKind};
 
-use super::bias::Expected;
+use super::expected::Expected;
 
 /// Rec. 709 weights of luminance, which is tested like a fourth channel.
 const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];

@@ -11,7 +11,8 @@ use arty::sampler::batch_seed;
 use verdict::check::{RegionId, RegionKind};
 
 use super::batches::Batches;
-use super::bias::{Comparison, Expected, combined_p_value, min_p_value, normal_deviate};
+use super::bias::{Comparison, combined_p_value, min_p_value, normal_deviate};
+use super::expected::Expected;
 use super::regions::{LEVELS, Region};
 
 /// Probability that screening flags a correct submission, over all pictures of one grade.

@@ -1,7 +1,8 @@
 //! Tests of the grader's own arithmetic near the limits of floating-point numbers: results are right, and never NaN.
 
 use super::batches::Batches;
-use super::bias::{Comparison, Expected, combined_p_value, min_p_value};
+use super::bias::{Comparison, combined_p_value, min_p_value};
+use super::expected::Expected;
 use super::regions::{pyramid, weighted_image};
 use super::sequential::{Decision, Judgement, LOOKS, SampleRequest, SequentialTest, judge};
 

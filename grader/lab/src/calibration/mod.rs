@@ -23,7 +23,7 @@ pub use table::table;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use fixed::Fixed;
-use judge::statistics::bias::Expected;
+use judge::statistics::expected::Expected;
 use judge::statistics::regions::{Region, pyramid, weighted_image};
 use judge::statistics::sequential::{CONFIRMATION_LEVEL, LOOKS, SequentialTest, judge};
 
