@@ -1,7 +1,7 @@
 //! Builds a submission against the framework, runs it in a sandbox, and asks it for numbers.
 //!
 //! [`build`] compiles it, [`sandbox`] confines compiler and program, [`host_process`] runs the program. Nothing here
-//! judges: whatever a submission does wrong is a [`host_process::Fault`], everything else an
+//! judges: whatever a submission does wrong is a [`Fault`](verdict::check::Fault), everything else an
 //! [`Error`](verdict::error::Error).
 
 pub mod assignment;

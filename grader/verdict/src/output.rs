@@ -26,7 +26,7 @@ pub fn write<E: Display>(
 /// Writes bytes or text to a file.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn write_bytes(path: &Path, bytes: impl AsRef<[u8]>) -> Result<()> {
     write(path, |writer| writer.write_all(bytes.as_ref()))
 }
@@ -34,7 +34,7 @@ pub fn write_bytes(path: &Path, bytes: impl AsRef<[u8]>) -> Result<()> {
 /// Writes a value to a JSON file.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
     write(path, |writer| serde_json::to_writer_pretty(writer, value))
 }
@@ -63,7 +63,7 @@ pub fn create_folder(path: &Path) -> Result<()> {
     })
 }
 
-/// Checks whether [`write`] can write to `path`, before the work of computing its content. Creates no file and changes
+/// Checks whether [`write()`] can write to `path`, before the work of computing its content. Creates no file and changes
 /// none.
 ///
 /// # Errors

@@ -1,7 +1,7 @@
 //! The checks: one file or folder per kind.
 //!
-//! A new kind is one file that implements [`Check`] and one line in [`REGISTRY`], besides its name in
-//! [`CheckKind`](verdict::check::CheckKind) and its measurements in [`Evidence`](verdict::check::Evidence). Plan,
+//! A new kind is one file that implements [`Check`] and one line in `REGISTRY`, besides its name in
+//! [`CheckKind`] and its measurements in [`Evidence`](verdict::check::Evidence). Plan,
 //! rubric, grade and diagnosis use the registry.
 
 mod check;
