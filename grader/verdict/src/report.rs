@@ -149,7 +149,7 @@ pub struct SkippedCheck {
     pub scene: String,
     /// The check of the rubric that was skipped; `None` if the rubric has no such check.
     pub check: Option<CheckId>,
-    /// Why it does not apply.
+    /// Reason why the check does not apply to this scene.
     pub why: WhyNot,
 }
 

@@ -52,7 +52,7 @@ pub struct Row {
     pub on_roster: bool,
     /// Name of the submission's folder or file.
     pub sent: String,
-    /// Where the points come from.
+    /// Graded, refused, missing, or failed by the grader.
     pub state: State,
     /// Main reason why points are missing.
     pub reason: Option<IntakeFinding>,

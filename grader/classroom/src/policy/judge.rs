@@ -20,7 +20,7 @@ pub struct Policy {
     extensions: BTreeMap<String, (Timestamp, String)>,
 }
 
-/// Whether a submission is late.
+/// Standing of a submission relative to deadline, grace period and extension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Standing {
@@ -37,7 +37,7 @@ pub enum Standing {
 /// Lateness of a submission, and its consequences.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lateness {
-    /// Whether it is late.
+    /// In time, late, not accepted, or unknown.
     pub standing: Standing,
     /// Seconds after the deadline; none if it was in time or the receipt time is unknown.
     pub late_by: Option<i64>,

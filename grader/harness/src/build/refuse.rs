@@ -15,7 +15,7 @@ pub(crate) struct Refusal {
     pub(crate) line: usize,
     /// The word, as in `#[no_mangle]`.
     pub(crate) what: String,
-    /// Why it is refused.
+    /// Reason for the refusal, as a clause for the error message.
     pub(crate) why: &'static str,
 }
 

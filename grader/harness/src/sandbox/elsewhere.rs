@@ -25,7 +25,7 @@ impl Machine {
         Layers::default()
     }
 
-    /// How to get a better level.
+    /// Steps that raise the sandbox level of this machine, one sentence each.
     pub fn advice(&self) -> Vec<String> {
         vec!["only Linux has a sandbox for submissions: grade files of others there".to_owned()]
     }

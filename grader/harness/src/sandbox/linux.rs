@@ -71,7 +71,7 @@ impl Machine {
         }
     }
 
-    /// How to get a better level.
+    /// Steps that raise the sandbox level of this machine, one sentence each; empty at the highest level.
     pub fn advice(&self) -> Vec<String> {
         let mut advice = Vec::new();
         if self.landlock == 0 {

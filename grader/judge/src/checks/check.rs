@@ -41,7 +41,7 @@ pub trait Check: Sync {
     /// Checks whether it applies to a scene that has lights which its technique can find.
     ///
     /// # Errors
-    /// Why it does not apply.
+    /// The property of scene or specification that makes the check meaningless there.
     fn applies(&self, _scene: &SceneWithReference, _spec: &CheckSpec) -> Result<(), WhyNot> {
         Ok(())
     }
@@ -58,7 +58,7 @@ pub trait Check: Sync {
     /// Checks whether a specification is valid, in whatever scene.
     ///
     /// # Errors
-    /// Why it is not valid.
+    /// The part of the specification that the check cannot use.
     fn accepts(&self, spec: &CheckSpec) -> Result<(), WhyNot> {
         if !self.techniques().contains(&spec.technique) {
             return Err(WhyNot::Technique);

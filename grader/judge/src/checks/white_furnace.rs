@@ -92,7 +92,7 @@ struct Furnace {
 enum Walls {
     /// Their albedo is this constant, whatever the angle.
     Uniform([f64; 3]),
-    /// Their albedo depends on the angle.
+    /// Glossy walls: the albedo depends on the angle of incidence.
     Glossy,
     /// They are black, and all other surfaces are clear glass.
     Background,

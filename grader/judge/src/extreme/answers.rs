@@ -39,7 +39,7 @@ pub struct Answer {
 
 /// An extreme scene.
 pub struct ExtremeScene {
-    /// Its entry in the table.
+    /// The row of the table of extreme scenes: what the scene is for, and its exact radiance.
     pub answer: Answer,
     /// Content of the scene.
     pub description: SceneDescription,

@@ -59,7 +59,7 @@ pub struct Experiment<'a> {
     pub workspace: &'a Workspace,
     /// Name of the assignment.
     pub assignment: &'a str,
-    /// Its rubric.
+    /// Rubric of the assignment, with the checks to calibrate.
     pub rubric: &'a Rubric,
     /// The correct variants, the solution first.
     pub right: &'a [Variant],

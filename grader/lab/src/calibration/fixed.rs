@@ -54,7 +54,7 @@ pub struct AlarmCache(Mutex<BTreeMap<(Test, u64), bool>>);
 /// A test with a fixed number of samples, and the samples that it is applied to.
 #[derive(Clone, Copy)]
 pub(super) struct Fixed<'a> {
-    /// One of the two simpler tests.
+    /// Test to apply; never the sequential one.
     pub(super) test: Test,
     /// Samples that are judged.
     pub(super) pool: &'a Pool,
