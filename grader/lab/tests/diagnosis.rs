@@ -2,6 +2,7 @@
 //! `cargo lab signatures` makes the files.
 
 use std::collections::BTreeSet;
+use std::path::PathBuf;
 
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
@@ -80,6 +81,31 @@ fn a_grade_that_stops_at_the_first_failures_still_names_the_cause_most_often() {
         rubric.checks().map(|(task, spec)| (task.id.clone(), spec.id())).collect();
     let [wrong, _, named] = confusion(|vector| vector.stopped_after(&order, 2)).wrong();
     assert!(named as f64 >= 0.9 * wrong as f64, "{named} of {wrong}");
+}
+
+/// Texts of causes decide nothing. The sentences of `present` cannot: `judge` does not depend on it (`layers.rs`).
+#[test]
+fn other_words_give_the_same_diagnosis() {
+    let assignment = workspace().assignment("05-nee-mis");
+    let file = std::fs::read_to_string(Catalogue::words_file(&assignment)).expect("it is there");
+    let mut causes: serde_yaml::Value = serde_yaml::from_str(&file).expect("it is sound");
+    let list = causes["causes"].as_sequence_mut().expect("it is a list");
+    for (index, cause) in list.iter_mut().enumerate() {
+        cause["title"] = format!("Title {index}").into();
+        cause["hint"] = format!("Hint {index}").into();
+    }
+    let folder = tempfile::tempdir().expect("there is space");
+    let write = |path: PathBuf, text: String| std::fs::write(path, text).expect("there is space");
+    write(Catalogue::words_file(folder.path()), serde_yaml::to_string(&causes).expect("it is YAML"));
+    let signatures = Catalogue::signatures_file(&assignment);
+    std::fs::copy(signatures, Catalogue::signatures_file(folder.path())).expect("there is space");
+
+    let (before, after) = (catalogue(), Catalogue::load(folder.path()).expect("causes and signatures fit"));
+    let hint = |catalogue: &Catalogue| catalogue.causes()[0].hint.clone();
+    assert_ne!(hint(&before), hint(&after));
+    for (variant, seed, vector) in cases().all() {
+        assert_eq!(before.names(vector), after.names(vector), "{variant}, seed {seed}");
+    }
 }
 
 #[test]

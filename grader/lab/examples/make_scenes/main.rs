@@ -62,7 +62,7 @@ fn main() -> ExitCode {
             eprintln!("{difference}");
         }
         if !differences.is_empty() {
-            eprintln!("run `cargo run --release -p grader --example make_scenes` to write them anew");
+            eprintln!("run `cargo run --release -p lab --example make_scenes` to write them anew");
             return ExitCode::FAILURE;
         }
         println!("{} files are as they should be", files.len());

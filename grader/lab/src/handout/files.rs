@@ -8,12 +8,13 @@ use verdict::error::{Error, Result};
 
 /// Files and folders that are included, without tests: some of these need the solution, and some show how to sample a
 /// light.
-const INCLUDED: [&str; 17] = [
+const INCLUDED: [&str; 18] = [
     ".gitattributes",
     ".gitignore",
     "LICENSE-APACHE",
     "LICENSE-MIT",
     "rustfmt.toml",
+    "skeleton/.cargo",
     "skeleton/src",
     "grader/src",
     "grader/classroom/src",
