@@ -1,21 +1,30 @@
 //! Findings about a submission before it is compiled.
 
-use verdict::submission::{FILE_NAME, IntakeFinding};
+use serde::{Deserialize, Serialize};
 
-use super::limits;
+use verdict::submission::{FILE_NAME, IntakeFinding};
 use verdict::text::harmless;
 
 /// Why a submission is not graded. Names of files are printed without control characters.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Refusal {
     /// `missing-file`: it contains no source. Names some of the other files in it.
     MissingFile(Vec<String>),
     /// `several-candidates`: it contains several sources that differ.
     SeveralCandidates(Vec<String>),
-    /// `too-large`: a source or an archive exceeds its [limit](crate::limits). Name, and size in bytes.
-    TooLarge(String, u64),
+    /// `duplicate-entry`: two files of the same name in one archive differ, so that programs disagree about its content.
+    TwoEntries(String),
+    /// `source-not-found`: there is no source at the path that was asked for. The path, and the sources that there are.
+    NotThere(String, Vec<String>),
+    /// `too-large`: a source or an archive exceeds its [limit](crate::limits).
+    TooLarge {
+        /// Its name.
+        name: String,
+        /// Maximum size in bytes.
+        max: u64,
+    },
     /// `not-source`: the file has the right name but another format.
-    NotSource(&'static str),
+    NotSource(String),
     /// `empty`: the source is empty.
     Empty,
     /// `encoding`: it is marked as UTF-16 but is not.
@@ -24,9 +33,11 @@ pub enum Refusal {
     NulBytes,
     /// `link`: the source is a link.
     Link(String),
+    /// `no-file`: it is a pipe, a socket or a device.
+    NoFile(String),
     /// `outside-path`: the source's path leads out of its archive.
     OutsidePath(String),
-    /// `bomb`: it unpacks to more than the [limits](crate::limits) allow.
+    /// `bomb`: reading it takes more bytes, files, memory or time than the [limits](crate::limits) allow.
     Bomb(String),
     /// `nested-archive`: an archive inside an archive inside an archive.
     NestedArchive(String),
@@ -40,6 +51,8 @@ pub enum Refusal {
     Git(String),
     /// `unreadable`: the operating system refuses to read it.
     Unreadable(String, String),
+    /// `intake-failed`: the process that reads it failed, with this exit status: a fault of the grader.
+    Failed(i32),
 }
 
 impl Refusal {
@@ -48,12 +61,15 @@ impl Refusal {
         match self {
             Self::MissingFile(_) => "missing-file",
             Self::SeveralCandidates(_) => "several-candidates",
-            Self::TooLarge(..) => "too-large",
+            Self::TwoEntries(_) => "duplicate-entry",
+            Self::NotThere(..) => "source-not-found",
+            Self::TooLarge { .. } => "too-large",
             Self::NotSource(_) => "not-source",
             Self::Empty => "empty",
             Self::Encoding => "encoding",
             Self::NulBytes => "nul-bytes",
             Self::Link(_) => "link",
+            Self::NoFile(_) => "no-file",
             Self::OutsidePath(_) => "outside-path",
             Self::Bomb(_) => "bomb",
             Self::NestedArchive(_) => "nested-archive",
@@ -62,6 +78,7 @@ impl Refusal {
             Self::BrokenArchive(..) => "broken-archive",
             Self::Git(_) => "git",
             Self::Unreadable(..) => "unreadable",
+            Self::Failed(_) => "intake-failed",
         }
     }
 }
@@ -71,24 +88,25 @@ impl std::fmt::Display for Refusal {
         match self {
             Self::MissingFile(others) if others.is_empty() => write!(f, "there is no {FILE_NAME} in it"),
             Self::MissingFile(others) => {
-                let others: Vec<String> = others.iter().map(|name| harmless(name)).collect();
-                write!(f, "there is no {FILE_NAME} in it, but {}", others.join(", "))
+                write!(f, "there is no {FILE_NAME} in it, but {}", listed(others))
             }
-            Self::SeveralCandidates(names) => {
-                let names: Vec<String> = names.iter().take(5).map(|name| harmless(name)).collect();
-                write!(
-                    f,
-                    "there are several {FILE_NAME} that differ: {}; name the one to grade",
-                    names.join(", ")
-                )
+            Self::SeveralCandidates(names) => write!(
+                f,
+                "there are several sources that differ: {}; choose one with --source=PATH, or in the column `source` \
+                 of the manifest",
+                listed(names)
+            ),
+            Self::TwoEntries(name) => {
+                write!(f, "{} is in it twice, with different content; pack it again", harmless(name))
             }
-            Self::TooLarge(name, size) => {
-                let max = if super::names::kind(name) == super::names::Kind::Archive {
-                    limits::ARCHIVE
-                } else {
-                    limits::SOURCE
-                };
-                write!(f, "{}: {size} bytes are too many (at most {max})", harmless(name))
+            Self::NotThere(path, names) if names.is_empty() => {
+                write!(f, "there is no source {} in it, and no other", harmless(path))
+            }
+            Self::NotThere(path, names) => {
+                write!(f, "there is no source {} in it; choose one of {}", harmless(path), listed(names))
+            }
+            Self::TooLarge { name, max } => {
+                write!(f, "{} is too large (at most {max} bytes)", harmless(name))
             }
             Self::NotSource(what) => write!(f, "its {FILE_NAME} is {what}, not a text file"),
             Self::Empty => write!(f, "its {FILE_NAME} is empty"),
@@ -99,8 +117,9 @@ impl std::fmt::Display for Refusal {
                 write!(f, "its {FILE_NAME} contains NUL bytes, so it is not a text file; save it as UTF-8")
             }
             Self::Link(name) => write!(f, "{} is a link, and links are not followed", harmless(name)),
+            Self::NoFile(name) => write!(f, "{} is neither a file nor a folder", harmless(name)),
             Self::OutsidePath(name) => write!(f, "the path {} leads out of its archive", harmless(name)),
-            Self::Bomb(why) => write!(f, "it unpacks to more than is allowed: {why}"),
+            Self::Bomb(why) => write!(f, "reading it exceeds a limit: {why}"),
             Self::NestedArchive(name) => {
                 write!(f, "{}: archives nested more than twice are not opened", harmless(name))
             }
@@ -118,13 +137,18 @@ impl std::fmt::Display for Refusal {
             Self::Git(why) => {
                 write!(f, "the git repository has no readable commit: {}", harmless(why))
             }
-            Self::Unreadable(name, why) => write!(f, "{} cannot be read: {why}", harmless(name)),
+            Self::Unreadable(name, why) => {
+                write!(f, "{} cannot be read: {}", harmless(name), harmless(why))
+            }
+            Self::Failed(status) => {
+                write!(f, "the grader failed to read it (exit status {status}); have a look at it by hand")
+            }
         }
     }
 }
 
 /// Anything odd about a submission that does not prevent grading.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Note {
     /// `byte-order-mark`: a byte order mark was removed.
     ByteOrderMark,
@@ -140,6 +164,12 @@ pub enum Note {
     OtherName(String),
     /// `starter-too`: it also contains the unchanged starting file, which was skipped.
     StarterToo(String),
+    /// `other-source`: it also contains a source with another name, which was skipped.
+    OtherSource(String),
+    /// `older-version`: it also contains an older version of the source by the naming of a course system; skipped.
+    OlderVersion(String),
+    /// `no-type`: it also contains a file with the right name that does not define the type of a submission; skipped.
+    NoType(String),
     /// `untouched`: the source is the unchanged starting file.
     Untouched,
     /// `uncommitted`: the file on disk differs from the last commit, which is graded.
@@ -159,6 +189,9 @@ impl Note {
             Self::Copies(_) => "copies",
             Self::OtherName(_) => "other-name",
             Self::StarterToo(_) => "starter-too",
+            Self::OtherSource(_) => "other-source",
+            Self::OlderVersion(_) => "older-version",
+            Self::NoType(_) => "no-type",
             Self::Untouched => "untouched",
             Self::Uncommitted(_) => "uncommitted",
             Self::PassedOver(_) => "passed-over",
@@ -180,6 +213,15 @@ impl std::fmt::Display for Note {
             Self::StarterToo(name) => {
                 write!(f, "{} is the unchanged starting file and was skipped", harmless(name))
             }
+            Self::OtherSource(name) => {
+                write!(f, "{} is also a source, but has another name; it was skipped", harmless(name))
+            }
+            Self::OlderVersion(name) => {
+                write!(f, "{} is an older version and was skipped", harmless(name))
+            }
+            Self::NoType(name) => {
+                write!(f, "{} does not define PathTracer and was skipped", harmless(name))
+            }
             Self::Untouched => write!(f, "it is the unchanged starting file"),
             Self::Uncommitted(name) => {
                 write!(f, "{} has changes that are not committed; the last commit is graded", harmless(name))
@@ -187,6 +229,16 @@ impl std::fmt::Display for Note {
             Self::PassedOver(what) => write!(f, "skipped: {}", harmless(what)),
         }
     }
+}
+
+/// The first names of a list.
+fn listed(names: &[String]) -> String {
+    const NAMED: usize = 5;
+    let mut list: Vec<String> = names.iter().take(NAMED).map(|name| harmless(name)).collect();
+    if names.len() > NAMED {
+        list.push("…".to_owned());
+    }
+    list.join(", ")
 }
 
 impl From<&Note> for IntakeFinding {

@@ -7,9 +7,14 @@ use super::{Note, Refusal};
 /// Decodes a source. Bytes that are neither UTF-8 nor marked as UTF-16 are read as Windows-1252, so that an umlaut in a
 /// comment does not cost all points.
 pub(super) fn decode(bytes: &[u8], notes: &mut Vec<Note>) -> Result<String, Refusal> {
-    if let Some(what) = something_else(bytes) {
-        return Err(Refusal::NotSource(what));
+    match something_else(bytes) {
+        Some(what) => Err(Refusal::NotSource(what.to_owned())),
+        None => decode_text(bytes, notes),
     }
+}
+
+/// Decodes a text of any format.
+pub(super) fn decode_text(bytes: &[u8], notes: &mut Vec<Note>) -> Result<String, Refusal> {
     let text = match Encoding::for_bom(bytes) {
         Some((encoding, length)) => {
             notes.push(if encoding == UTF_8 { Note::ByteOrderMark } else { Note::Utf16 });

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use jiff::tz::TimeZone;
 
+use super::intake::reader;
 use super::min_sandbox::MinSandbox;
 use super::policy::policy;
 use classroom::class::gradebook::{Row, State, save_class, save_gradebook};
@@ -138,6 +139,7 @@ impl Arguments {
             out: self.out.clone(),
             regrade: self.regrade,
             pages: !self.no_report,
+            reader: reader(),
         }
     }
 

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 
+use super::intake::reader;
 use arty::integrator::Technique;
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -129,7 +130,7 @@ impl Programs {
     /// Compiles submissions, without any the student file, and the solution.
     fn build(paths: &[PathBuf], workspace: &Workspace) -> Result<Self> {
         let paths = if paths.is_empty() { vec![workspace.student_file()] } else { paths.to_vec() };
-        let sources = paths.iter().map(|path| intake::read(path)).collect::<Result<Vec<_>>>()?;
+        let sources = paths.iter().map(|path| reader().read(path)).collect::<Result<Vec<_>>>()?;
         let framework = Framework::build(workspace)?;
         let mut left_out = Vec::new();
         let mut submissions = Vec::new();

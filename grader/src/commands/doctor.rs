@@ -4,6 +4,7 @@ use std::fmt::Display;
 use std::path::Path;
 use std::process::ExitCode;
 
+use super::intake::reader;
 use harness::build::{Framework, compile};
 use harness::host_process::HostProcess;
 use harness::sandbox::{Layers, Level, Limits, Machine, linker};
@@ -54,7 +55,7 @@ fn try_starter(
     framework: &Framework,
     limits: &Limits,
 ) -> Result<Option<(Layers, Layers)>> {
-    let starter = intake::read(&workspace.student_file())?;
+    let starter = reader().read(&workspace.student_file())?;
     match compile(framework, &starter.source, limits)? {
         Ok(program) => {
             let process = HostProcess::start(&program, 1)?;

@@ -3,14 +3,15 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use super::intake::reader;
 use super::lateness::{Received, When};
 use super::min_sandbox::MinSandbox;
 use super::{export, full_report, watch};
+use ::intake::{Intake, Refusal};
 use classroom::marks::Marks;
 use harness::assignment::Assignment;
 use harness::build::{Framework, SubmissionProgram};
 use harness::workspace::Workspace;
-use intake::{self, Intake, Refusal};
 use judge::grade::{Grader, Options};
 use present::export::Export;
 use present::page::remove_pages;
@@ -26,6 +27,9 @@ use verdict::submission::IntakeFinding;
 pub(super) struct Arguments {
     /// A render_pt.rs, or a folder, .zip, .tar.gz or git repository with one in it [default: the student file in the skeleton]
     submission: Option<PathBuf>,
+    /// Source to grade if there are several: the end of its path, in archives too
+    #[arg(long, value_name = "PATH", conflicts_with = "watch")]
+    source: Option<String>,
     #[command(flatten)]
     assignment: Assignment,
     /// Folder for report.json, report.html (for the student) and report-tutor.html; created if missing
@@ -72,7 +76,7 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
     let path = relative(arguments.submission.clone().unwrap_or_else(|| workspace.student_file()));
     let received = arguments.when.read(workspace, &arguments.assignment.name)?;
     let starter = workspace.starter(&arguments.assignment.name)?;
-    let intake = take(&starter, &path, arguments.missing_is_zero)?;
+    let intake = arguments.take(&starter, &path)?;
     let file = arguments.out.join("report.json");
     prepare(arguments, &file)?;
     let marks = Marks::open(&arguments.out)?;
@@ -116,6 +120,22 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
 }
 
 impl Arguments {
+    /// Takes in the submission at `path`. `starter` is the text of the assignment's starting file.
+    ///
+    /// # Errors
+    /// If nothing is there or it cannot be read, unless that means 0 points (`--missing-is-zero`), and if `--source` names
+    /// nothing. Any other refusal is a fault of the submission, which then has 0 points.
+    fn take(&self, starter: &str, path: &Path) -> Result<Intake> {
+        let intake = reader().take(&[path.to_owned()], starter, self.source.as_deref())?;
+        match &intake.outcome {
+            Err(refusal @ (Refusal::MissingFile(_) | Refusal::Unreadable(..))) if !self.missing_is_zero => {
+                Err(Error::file(path, refusal))
+            }
+            Err(refusal @ Refusal::NotThere(..)) => Err(Error::file(path, refusal)),
+            _ => Ok(intake),
+        }
+    }
+
     fn options(&self) -> Options {
         Options {
             assignment: self.assignment.name.clone(),
@@ -173,21 +193,6 @@ fn print_points(
         print_profile(report);
     }
     Ok(())
-}
-
-/// Takes in the submission at `path`. `starter` is the text of the assignment's starting file.
-///
-/// # Errors
-/// If nothing is there or it cannot be read, unless that means 0 points (`missing_is_zero`). Any other refusal is a
-/// fault of the submission, which then has 0 points.
-fn take(starter: &str, path: &Path, missing_is_zero: bool) -> Result<Intake> {
-    let intake = intake::take(&[path.to_owned()], starter)?;
-    match &intake.outcome {
-        Err(refusal @ (Refusal::MissingFile(_) | Refusal::Unreadable(..))) if !missing_is_zero => {
-            Err(Error::file(path, refusal))
-        }
-        _ => Ok(intake),
-    }
 }
 
 fn points(text: &str) -> std::result::Result<f64, String> {

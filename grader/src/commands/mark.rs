@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use super::intake::reader;
 use classroom::marks::{Mark, Marks, why_not};
 use harness::assignment::Assignment;
 use harness::workspace::Workspace;
@@ -21,6 +22,9 @@ use verdict::text::harmless;
 pub(super) struct Arguments {
     /// The submission that was graded: a file, folder, archive or git repository
     submission: PathBuf,
+    /// Source to use if there are several: the end of its path, in archives too
+    #[arg(long, value_name = "PATH")]
+    source: Option<String>,
     /// Task, such as 5.2a
     task: String,
     /// Points
@@ -40,7 +44,8 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
     if let Some(why) = why_not(&rubric, &arguments.task, arguments.points) {
         return Err(Error::Input(why));
     }
-    let intake = intake::take(std::slice::from_ref(&arguments.submission), "")?;
+    let intake =
+        reader().take(std::slice::from_ref(&arguments.submission), "", arguments.source.as_deref())?;
     for explanation in &intake.explanations {
         note(format_args!("{}: {}", harmless(&explanation.name), count(explanation.bytes, "byte")));
     }

@@ -8,6 +8,7 @@ mod doctor;
 mod export;
 mod full_report;
 mod grade;
+mod intake;
 mod lateness;
 mod mark;
 mod min_sandbox;
@@ -25,6 +26,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use harness::workspace::Workspace;
 use present::streams::note;
 use verdict::error::Result;
+use verdict::text::message;
 
 /// Build, run and grade submissions of the path tracing exercise.
 #[derive(Parser)]
@@ -50,6 +52,8 @@ enum Command {
     Mark(mark::Arguments),
     Plan(plan::Arguments),
     Replay(replay::Arguments),
+    #[command(name = ::intake::COMMAND, hide = true)]
+    Intake(intake::Arguments),
 }
 
 /// Runs the command line. The exit status is 0 if the command did its work, whatever the points; 1 for fewer points
@@ -59,7 +63,7 @@ pub(crate) fn run() -> ExitCode {
     // What clap has parsed is what the same structure is read from.
     let arguments = Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     arguments.run().unwrap_or_else(|error| {
-        note(format_args!("error: {error}"));
+        note(format_args!("error: {}", message(&error.to_string())));
         error.exit_code()
     })
 }
@@ -78,6 +82,7 @@ impl Arguments {
             Command::Mark(arguments) => mark::run(arguments, &workspace()?),
             Command::Plan(arguments) => plan::run(arguments, &workspace()?),
             Command::Replay(arguments) => replay::run(arguments, &workspace()?),
+            Command::Intake(arguments) => intake::run(arguments),
         }
     }
 }

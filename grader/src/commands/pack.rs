@@ -8,14 +8,15 @@ use jiff::Timestamp;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
+use super::intake::reader;
 use super::lateness::standing;
 use super::policy::policy;
+use ::intake::md5_of;
 use classroom::policy::Receipt;
 use harness::assignment::Assignment;
 use harness::build::{Framework, compile};
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
-use intake::md5_of;
 use present::streams::{note, print_line};
 use present::words::count;
 use verdict::error::{Error, Result};
@@ -50,7 +51,7 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
     let rubric = arguments.assignment.rubric(workspace)?;
     let policy = policy(workspace, &arguments.assignment.name, &rubric, arguments.course.as_deref())?;
     let file = arguments.file.clone().unwrap_or_else(|| workspace.student_file());
-    let submission = intake::read(&file)?;
+    let submission = reader().read(&file)?;
     let entries = entries(&submission, &arguments.explanation)?;
     note(format_args!("compiling {} …", file.display()));
     if let Err(failure) = compile(&Framework::build(workspace)?, &submission.source, &Limits::default())? {

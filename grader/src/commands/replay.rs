@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use super::intake::reader;
 use arty::integrator::Technique;
 use serde::Serialize;
 
@@ -83,7 +84,7 @@ struct Replay<'a> {
 pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
     let target = arguments.target()?;
     let description = load(workspace, &target)?;
-    let submission = intake::read(&arguments.submission)?;
+    let submission = reader().read(&arguments.submission)?;
     let program = compile(&Framework::build(workspace)?, &submission.source, &Limits::default())?
         .map_err(|failure| Error::Input(format!("the submission does not compile:\n{}", failure.messages)))?;
     let submission = follow(&program, &target, &description).map_err(|error| match error {

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
+use super::intake::reader;
 use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
 use comfy_table::{Cell, CellAlignment, Color, ContentArrangement, Table};
 use notify_debouncer_mini::new_debouncer;
@@ -45,7 +46,7 @@ pub(super) fn watch(workspace: &Workspace, path: &Path, options: &Options, file:
     let grader = Grader::new(workspace, options)?;
     let mut last = None;
     loop {
-        match intake::read(path) {
+        match reader().read(path) {
             Ok(submission) if last.as_ref() == Some(&submission.hash()) => {}
             Ok(submission) => {
                 last = Some(submission.hash());

@@ -104,6 +104,17 @@ pub fn harmless(name: &str) -> String {
     text
 }
 
+/// A message that is safe to print and short enough to be read: what terminals would interpret is removed, and of a line
+/// that quotes a file at length, the start is kept.
+pub fn message(text: &str) -> String {
+    const MAX_LINE: usize = 600;
+    let short = |line: &str| match line.char_indices().nth(MAX_LINE) {
+        Some((end, _)) => format!("{} … (shortened)", &line[..end]),
+        None => line.to_owned(),
+    };
+    clean(text).lines().map(short).collect::<Vec<_>>().join("\n")
+}
+
 /// A path quoted as a shell argument.
 pub fn quote(path: &Path) -> String {
     let text = path.display().to_string();
@@ -146,6 +157,14 @@ mod tests {
     #[test]
     fn long_text_is_shortened() {
         assert!(clean(&"x".repeat(10_000_000)).len() < 100_000);
+    }
+
+    #[test]
+    fn messages_do_not_quote_a_file_at_length() {
+        let quoted = format!("marks.csv:3: `{}` is not a number\nsecond line", "x\u{1b}[2J".repeat(450_000));
+        let short = message(&quoted);
+        assert!(short.starts_with("marks.csv:3: `xxx") && short.len() < 700, "{}", short.len());
+        assert_eq!(message("a.yml:1: no such key\n"), "a.yml:1: no such key");
     }
 
     #[test]

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use verdict::error::{Error, Result};
+use verdict::text::harmless;
 
 /// What the name of a folder or file tells about its student.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -41,6 +42,8 @@ pub fn submissions(folder: &Path) -> Result<Vec<Sent>> {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let label = label(&name, path.is_dir());
         let identity = identity(&label);
+        // The paths keep the name; everything that is written or printed has this one.
+        let label = harmless(&label);
         // All that Moodle keeps of a student has the same number.
         let key = identity.number.clone().unwrap_or_else(|| label.clone());
         let sent = found.entry(key).or_insert(Sent { label, identity, paths: Vec::new() });

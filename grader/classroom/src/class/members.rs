@@ -120,7 +120,23 @@ fn safe(name: &str) -> String {
     let plain = |c: char| if c.is_alphanumeric() || "._-@+".contains(c) { c } else { '_' };
     let text: String = name.trim().chars().take(80).map(plain).collect();
     let text = text.trim_matches(['.', '-', '_', '+', '@']);
-    if text.is_empty() { "somebody".to_owned() } else { text.to_owned() }
+    match text {
+        "" => "somebody".to_owned(),
+        reserved if is_reserved(reserved) => format!("{reserved}_"),
+        text => text.to_owned(),
+    }
+}
+
+/// True for names that Windows keeps for devices, whatever their extension.
+fn is_reserved(name: &str) -> bool {
+    let stem = name.split('.').next().unwrap_or_default().trim_end().to_lowercase();
+    let is_numbered = |kind| {
+        stem.strip_prefix(kind)
+            .is_some_and(|number| number.chars().count() == 1 && number.chars().all(char::is_numeric))
+    };
+    matches!(stem.as_str(), "con" | "prn" | "aux" | "nul" | "conin$" | "conout$")
+        || is_numbered("com")
+        || is_numbered("lpt")
 }
 
 /// Adds a number to a name if it is taken, ignoring case as some file systems do.
@@ -147,6 +163,11 @@ mod tests {
             ("../../etc/passwd", "etc_passwd"),
             ("=cmd|' /C calc'!A0", "cmd____C_calc__A0"),
             ("Jürgen Ö", "Jürgen_Ö"),
+            ("CON", "CON_"),
+            ("aux.txt", "aux.txt_"),
+            ("Com1", "Com1_"),
+            ("console", "console"),
+            ("a\u{1b}[2J\u{202e}b", "a__2J_b"),
             ("🎨", "somebody"),
             ("", "somebody~2"),
         ] {

@@ -19,7 +19,7 @@ use crate::marks::Marks;
 use crate::policy::{Lateness, Policy, Receipt, the_one_that_counts};
 use harness::tree_hash::hash_judging;
 use harness::workspace::Workspace;
-use intake::{self, Intake};
+use intake::{Intake, Reader};
 use judge::grade::{Grader, Options};
 use judge::reference::Oracle;
 use present::streams::note;
@@ -41,6 +41,8 @@ pub struct RunOptions {
     pub regrade: bool,
     /// True to write the pages of each submission, with images.
     pub pages: bool,
+    /// Who reads the submissions.
+    pub reader: Reader,
 }
 
 /// Results of a class.
@@ -290,7 +292,7 @@ impl Shared<'_> {
         for receipt in &member.receipts {
             let paths = paths_of(receipt);
             if !paths.is_empty() {
-                taken.insert(receipt.path.clone(), intake::take(&paths, &self.starter_text)?);
+                taken.insert(receipt.path.clone(), self.read(&paths, Some(receipt))?);
             }
         }
         let there: Vec<Receipt> =
@@ -309,9 +311,15 @@ impl Shared<'_> {
         if member.paths.is_empty() {
             return Ok(None);
         }
-        let intake = intake::take(&member.paths, &self.starter_text)?;
+        let intake = self.read(&member.paths, member.receipts.first())?;
         let lateness = self.policy.map(|policy| policy.judge(&names, None, &intake.checksums));
         Ok(Some(Taken { intake, receipt: None, lateness }))
+    }
+
+    /// Reads a submission; its receipt may say which file of it is the source.
+    fn read(&self, paths: &[PathBuf], receipt: Option<&Receipt>) -> Result<Intake> {
+        let source = receipt.and_then(|receipt| receipt.source.as_deref());
+        self.options.reader.take(paths, &self.starter_text, source)
     }
 
     fn key(&self, source: &str) -> String {

@@ -21,10 +21,12 @@ pub struct Receipt {
     pub md5_received_at: Option<Timestamp>,
     /// File or folder of the submission, relative to the folder of the class; empty if the student sent only one.
     pub path: String,
+    /// The file in the submission that is its source, by the end of its path; `None` if there is nothing to choose.
+    pub source: Option<String>,
 }
 
 /// All receipts of a class. The columns of the file are `student` (login, number, e-mail address, or the name of the
-/// submission's folder), `received_at`, and optionally `md5`, `md5_received_at` and `path`. A student who sent several
+/// submission's folder), `received_at`, and optionally `md5`, `md5_received_at`, `path` and `source`. A student who sent several
 /// submissions has several rows.
 #[derive(Clone, Debug, Default)]
 pub struct Manifest {
@@ -43,6 +45,7 @@ impl Manifest {
         let student = column("student").ok_or_else(|| missing("student"))?;
         let received_at = column("received_at").ok_or_else(|| missing("received_at"))?;
         let (md5, md5_received_at, file) = (column("md5"), column("md5_received_at"), column("path"));
+        let source = column("source");
         let mut manifest = Self::default();
         for row in &table.rows {
             let blame = |message: String| Error::Input(format!("{}:{}: {message}", path.display(), row.line));
@@ -60,6 +63,7 @@ impl Manifest {
                 md5,
                 md5_received_at: time(md5_received_at)?,
                 path: cell(file).unwrap_or_default().to_owned(),
+                source: cell(source).map(str::to_owned),
             };
             manifest.receipts.entry(row.cell(student).to_lowercase()).or_default().push(receipt);
         }

@@ -1,5 +1,7 @@
 //! Submissions as they come, made in memory or in a temporary folder.
 
+mod sources;
+
 use std::io::{Cursor, Write};
 use std::path::Path;
 
@@ -47,7 +49,7 @@ fn gzip(bytes: &[u8]) -> Vec<u8> {
 fn take_folder(files: &[(&str, &[u8])]) -> Intake {
     let folder = tempfile::tempdir().expect("a temporary folder");
     write_all(folder.path(), files);
-    take(&[folder.path().to_owned()], STARTER).expect("the folder is there")
+    take(&[folder.path().to_owned()], STARTER, None).expect("the folder is there")
 }
 
 fn write_all(folder: &Path, files: &[(&str, &[u8])]) {
@@ -208,7 +210,7 @@ fn of_several_sources_only_different_ones_are_a_question() {
         ("arty/main.rs", b"use render_pt::PathTracer;"),
         ("render_pt (2).rs", SOURCE.as_bytes()),
     ]);
-    assert_eq!((source(&renamed), notes(&renamed)), (SOURCE, vec!["other-name", "starter-too"]));
+    assert_eq!((source(&renamed), notes(&renamed)), (SOURCE, vec!["starter-too", "other-name"]));
 }
 
 #[test]
@@ -261,7 +263,7 @@ fn links_are_not_followed() {
     std::os::unix::fs::symlink("../elsewhere/real.txt", submission.join("render_pt.rs"))
         .expect("it can be made");
     std::os::unix::fs::symlink("..", submission.join("loop")).expect("it can be made");
-    assert_eq!(code(&take(&[submission], STARTER).expect("it is there")), "link");
+    assert_eq!(code(&take(&[submission], STARTER, None).expect("it is there")), "link");
 }
 
 fn git(folder: &Path, arguments: &[&str]) {
@@ -278,7 +280,7 @@ fn of_a_repository_the_last_commit_counts_and_nothing_of_it_runs() {
     write_all(&work, &[("src/render_pt.rs", SOURCE.as_bytes()), (".gitattributes", b"*.rs filter=evil\n")]);
     git(&work, &["init", "-q"]);
     assert_eq!(
-        code(&take(std::slice::from_ref(&work), STARTER).expect("it is there")),
+        code(&take(std::slice::from_ref(&work), STARTER, None).expect("it is there")),
         "git",
         "no commit yet"
     );
@@ -292,11 +294,11 @@ fn of_a_repository_the_last_commit_counts_and_nothing_of_it_runs() {
         git(&work, &["config", key, &evil]);
     }
     write_all(&work, &[("src/render_pt.rs", b"changed")]);
-    let checkout = take(&[work], STARTER).expect("it is there");
+    let checkout = take(&[work], STARTER, None).expect("it is there");
     assert_eq!((source(&checkout), notes(&checkout)), (SOURCE, vec!["uncommitted"]));
     assert!(!proof.exists(), "a program of the repository ran");
-    let from_bare = take(std::slice::from_ref(&bare), STARTER).expect("it is there");
+    let from_bare = take(std::slice::from_ref(&bare), STARTER, None).expect("it is there");
     assert_eq!((source(&from_bare), notes(&from_bare)), (SOURCE, vec![]));
     write_all(&bare, &[("objects/info/alternates", b"/elsewhere\n")]);
-    assert_eq!(code(&take(&[bare], STARTER).expect("it is there")), "git");
+    assert_eq!(code(&take(&[bare], STARTER, None).expect("it is there")), "git");
 }

@@ -1,0 +1,41 @@
+//! `grader __intake`: reads one submission for another grader, locked in.
+
+#[cfg(target_os = "linux")]
+mod lock;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use ::intake::{Reader, serve};
+use verdict::error::Result;
+
+/// Read one submission for the grader that started this process
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// Files, folders and archives of one student
+    #[arg(required = true)]
+    paths: Vec<PathBuf>,
+    /// End of the path of the source
+    #[arg(long, value_name = "PATH")]
+    source: Option<String>,
+}
+
+/// Reads submissions in processes of this program. Where the program cannot be found, this process reads them.
+pub(super) fn reader() -> Reader {
+    // On Linux this is the program itself, also when its file was replaced while it runs.
+    let link = Path::new("/proc/self/exe");
+    if link.exists() {
+        return Reader::Apart(link.to_owned());
+    }
+    std::env::current_exe().map_or(Reader::Here, Reader::Apart)
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
+    serve(&arguments.paths, arguments.source.as_deref(), || {
+        // Elsewhere there is nothing to lock it in with.
+        #[cfg(target_os = "linux")]
+        lock::lock_in(&arguments.paths)?;
+        Ok(())
+    })?;
+    Ok(ExitCode::SUCCESS)
+}
