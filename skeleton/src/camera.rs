@@ -51,6 +51,19 @@ impl Camera {
         let on_plane = self.corner + (x as f32 + u) * self.right + (y as f32 + v) * self.down;
         Ray::new(self.eye, on_plane.normalize())
     }
+
+    /// Where a point (world space) appears: column, row and depth. The inverse of [`ray`](Self::ray).
+    ///
+    /// The depth is the distance from the pinhole along the view direction; where it is not positive, the point is not in
+    /// front of the camera, and column and row mean nothing.
+    pub fn project(&self, point: Vec3) -> Vec3 {
+        let forward = direction_and_distance(Vec3::ZERO, self.right.cross(self.down)).0;
+        let from_eye = point - self.eye;
+        let depth = from_eye.dot(forward);
+        let on_plane = from_eye / depth - self.corner;
+        let along = |axis: Vec3| on_plane.dot(axis) / axis.length_squared();
+        Vec3::new(along(self.right), along(self.down), depth)
+    }
 }
 
 #[cfg(test)]
@@ -73,5 +86,26 @@ mod tests {
         assert!((left - Vec3::new(-1.0, 0.0, -1.0).normalize()).length() < 1e-6, "45° to the left: {left}");
         let top = camera.ray(100, 0, (0.0, 0.0)).direction;
         assert!((top - Vec3::new(0.0, 0.5, -1.0).normalize()).length() < 1e-6, "half as high as wide: {top}");
+    }
+
+    #[test]
+    fn a_point_appears_where_its_ray_starts() {
+        let description = CameraDescription {
+            eye: Vec3::new(1.0, 2.0, 3.0),
+            center: Vec3::new(-1.0, 0.5, 0.0),
+            up: Vec3::new(0.1, 2.0, 0.3),
+            fov: 55.0,
+        };
+        let camera = Camera::new(&description, 64, 48);
+        for (x, y) in [(0, 0), (63, 0), (31, 24), (5, 47)] {
+            let ray = camera.ray(x, y, (0.25, 0.75));
+            let seen = camera.project(ray.origin + 7.0 * ray.direction);
+            assert!(
+                (seen.x - x as f32 - 0.25).abs() < 1e-3 && (seen.y - y as f32 - 0.75).abs() < 1e-3,
+                "{seen}"
+            );
+            assert!(seen.z > 0.0 && seen.z <= 7.0, "{seen}");
+            assert!(camera.project(ray.origin - 7.0 * ray.direction).z < 0.0, "behind the camera");
+        }
     }
 }

@@ -7,7 +7,7 @@
 //! |---|---|
 //! | [`math`] | colours, directions, maps from random numbers to directions |
 //! | `dedup` | deduplication of geometry |
-//! | `probe` | instrumentation for the grader; without effect in every other build |
+//! | `probe` | instrumentation for grader and window; without effect in every other build |
 //! | [`sampler`] | random numbers, one stream for each (seed, pixel, sample) |
 //! | [`ray`] | rays |
 //! | [`accel`] | the acceleration structure: which triangle a ray hits |

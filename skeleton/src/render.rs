@@ -42,6 +42,19 @@ pub fn render(
     stop: &AtomicBool,
 ) {
     let camera = scene.camera(film.width(), film.height());
+    render_from(&camera, integrator, scene, film, samples, seed, stop);
+}
+
+/// [`render`] with another camera than the scene's, made for the size of the film.
+pub fn render_from(
+    camera: &Camera,
+    integrator: &dyn Integrator,
+    scene: &Scene,
+    film: &mut Film,
+    samples: Range<u64>,
+    seed: u64,
+    stop: &AtomicBool,
+) {
     let row = |(y, pixels): (usize, &mut [Pixel])| {
         let mut anomalies = Anomalies::default();
         for (x, pixel) in pixels.iter_mut().enumerate() {
@@ -50,7 +63,7 @@ pub fn render(
             }
             let (x, y) = (x as u32, y as u32);
             for sample in samples.clone() {
-                let value = sample_pixel(integrator, scene, &camera, seed, (x, y), sample);
+                let value = sample_pixel(integrator, scene, camera, seed, (x, y), sample);
                 anomalies.inspect(x, y, sample, value);
                 pixel.add(value);
             }

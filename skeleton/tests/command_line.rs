@@ -111,6 +111,14 @@ fn exposure_brightens_the_png() {
 }
 
 #[test]
+fn the_window_is_another_program_with_the_same_options() {
+    let folder = Folder::new();
+    let run = folder.run("scene.yml --view --technique=nee");
+    assert_eq!((run.status, folder.files().len()), (Some(2), 0), "{}", run.stderr);
+    assert!(run.stderr.contains("run `cargo view scene.yml --technique=nee`"), "{}", run.stderr);
+}
+
+#[test]
 fn an_openexr_file_contains_its_provenance() {
     let folder = Folder::new();
     folder.render("scene.yml -sx 20 -sy=10 -s 16 --seed=7 --technique=nee --max-bounces=2 -o a.exr -o b.png");

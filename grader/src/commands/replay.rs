@@ -1,7 +1,7 @@
 //! `grader replay`.
 
-use std::path::PathBuf;
-use std::process::ExitCode;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
 
 use super::intake::reader;
 use arty::integrator::Technique;
@@ -59,6 +59,9 @@ pub(super) struct Arguments {
     /// Old name of `--emission-on-hit=off`
     #[arg(long, hide = true)]
     hits_off: bool,
+    /// Show the path in a window, over the picture; only for the student file in the skeleton
+    #[arg(long, conflicts_with_all = ["json", "student"])]
+    view: bool,
     /// Do not trace the path with the solution as well
     #[arg(long)]
     student: bool,
@@ -83,6 +86,9 @@ struct Replay<'a> {
 
 pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
     let target = arguments.target()?;
+    if arguments.view {
+        return view(&target, &arguments.submission, workspace);
+    }
     let description = load(workspace, &target)?;
     let submission = reader().read(&arguments.submission)?;
     let program = compile(&Framework::build(workspace)?, &submission.source, &Limits::default())?
@@ -114,6 +120,39 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
         output::write_json(file, &replay)?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Opens the window, a program of its own that is built with the student file, and waits until it is closed.
+fn view(target: &ReplayTarget, submission: &Path, workspace: &Workspace) -> Result<ExitCode> {
+    let file = if submission.is_dir() { submission.join("render_pt.rs") } else { submission.to_owned() };
+    let same = |path: &Path| path.canonicalize().ok();
+    if same(&file).is_none_or(|file| Some(file) != same(&workspace.student_file())) {
+        let student_file = workspace.student_file();
+        return Err(Error::Input(format!("--view: the window shows {} only", student_file.display())));
+    }
+    let is_plain = (target.scale, target.emission, target.emission_on_hit) == (1.0, 1.0, EmissionOnHit::On);
+    let files = [workspace.scene_file(&target.scene), workspace.extreme_scene_file(&target.scene)];
+    let scene = files.iter().find(|file| file.is_file()).filter(|_| is_plain).ok_or_else(|| {
+        Error::Input("--view: the window shows scenes as they are in scenes/, not changed ones".to_owned())
+    })?;
+    let ReplayTarget { technique, max_bounces, size: [width, height], seed, pixel: [x, y], sample, .. } =
+        target;
+    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.current_dir(workspace.root()).arg("view").arg(scene).args([
+        format!("--technique={technique}"),
+        format!("--max-bounces={max_bounces}"),
+        format!("--width={width}"),
+        format!("--height={height}"),
+        format!("--seed={seed}"),
+        format!("--pixel={x},{y}"),
+        format!("--sample={sample}"),
+    ]);
+    let status = command.status().map_err(|error| Error::Harness(format!("cargo view: {error}")))?;
+    match status.code() {
+        Some(0) => Ok(ExitCode::SUCCESS),
+        // It has said why.
+        code => Ok(ExitCode::from(code.and_then(|code| u8::try_from(code).ok()).unwrap_or(3))),
+    }
 }
 
 impl Arguments {

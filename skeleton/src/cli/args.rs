@@ -80,6 +80,10 @@ pub(super) struct Args {
           default_missing_value = tev::DEFAULT_ADDRESS, help_heading = OUTPUT)]
     pub(super) tev: Option<String>,
 
+    /// Refine the picture in a window with keys and mouse: `cargo view`, which takes the same scene and options
+    #[arg(long, help_heading = OUTPUT)]
+    pub(super) view: bool,
+
     /// Print and save the error against this OpenEXR reference while rendering (relative MSE, MSE)
     ///
     /// The image is rendered with the reference's size, which --width and --height must not contradict, and maximum

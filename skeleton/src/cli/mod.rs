@@ -38,6 +38,7 @@ use self::exit::{Exit, Failure};
 use self::live::Live;
 use self::output::Provenance;
 use self::plan::Plan;
+pub use self::plan::{DEFAULT_MAX_BOUNCES, image_size};
 use self::progress::Progress;
 
 /// The algorithm to render with. `main` makes the integrator for it.
@@ -88,6 +89,9 @@ pub fn run(make: impl FnOnce(Algorithm) -> Box<dyn Integrator>) -> ExitCode {
 }
 
 fn execute(args: &Args, make: impl FnOnce(Algorithm) -> Box<dyn Integrator>) -> Result<Exit, Failure> {
+    if args.view {
+        return Err(Failure::window(std::env::args()));
+    }
     let loaded = file::load(&args.scene)?;
     let scene = Scene::new(&loaded.description);
     if args.features {

@@ -15,7 +15,8 @@ use crate::scene::Defaults;
 const DEFAULT_WIDTH: u32 = 512;
 const DEFAULT_HEIGHT: u32 = 412;
 const DEFAULT_SAMPLES: u64 = 64;
-const DEFAULT_MAX_BOUNCES: u32 = 8;
+/// Maximum number of bounces where neither command line nor scene give one.
+pub const DEFAULT_MAX_BOUNCES: u32 = 8;
 
 /// Maximum number of pixels: an OpenEXR file with a mean and a variance of more could not be read again.
 const MAX_PIXELS: u64 = 1 << 25;
@@ -75,6 +76,12 @@ impl Plan {
 
 /// Width and height of the image in pixels.
 pub(super) fn size(args: &Args, defaults: Defaults) -> (u32, u32) {
+    image_size(args.width, args.height, defaults)
+}
+
+/// Width and height of an image in pixels, given those of the command line and of the scene.
+pub fn image_size(width: Option<u32>, height: Option<u32>, defaults: Defaults) -> (u32, u32) {
+    let given = (width, height);
     let (width, height) =
         (defaults.width.unwrap_or(DEFAULT_WIDTH), defaults.height.unwrap_or(DEFAULT_HEIGHT));
     // A single one keeps the aspect ratio.
@@ -82,7 +89,7 @@ pub(super) fn size(args: &Args, defaults: Defaults) -> (u32, u32) {
         let exact = f64::from(given) * f64::from(other) / f64::from(of);
         (exact.round() as u32).max(1)
     };
-    match (args.width, args.height) {
+    match given {
         (None, None) => (width, height),
         (Some(given), None) => (given, scaled(given, height, width)),
         (None, Some(given)) => (scaled(given, width, height), given),

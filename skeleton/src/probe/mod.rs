@@ -1,4 +1,5 @@
-//! Instrumentation for the grader's host: scripts, switches, stratified random numbers, counters and recordings.
+//! Instrumentation for the grader's host: scripts, switches, stratified random numbers, counters and recordings. The
+//! window (`skeleton/view/`) uses recordings, too.
 //!
 //! This module exists with the feature `probe` only. In every other build [`no_probe`](../../no_probe.rs) takes its
 //! place: the same names, zero-sized and without effect, so that the renderer's code needs no conditional compilation.

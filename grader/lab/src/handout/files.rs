@@ -8,7 +8,7 @@ use verdict::error::{Error, Result};
 
 /// Files and folders that are included, without tests: some of these need the solution, and some show how to sample a
 /// light.
-const INCLUDED: [&str; 18] = [
+const INCLUDED: [&str; 19] = [
     ".gitattributes",
     ".gitignore",
     "LICENSE-APACHE",
@@ -16,6 +16,7 @@ const INCLUDED: [&str; 18] = [
     "rustfmt.toml",
     "skeleton/.cargo",
     "skeleton/src",
+    "skeleton/view/src",
     "grader/src",
     "grader/classroom/src",
     "grader/harness/src",
@@ -50,11 +51,12 @@ const MOVED: [(&str, &str); 3] = [
 
 /// Cargo's files, which name packages that are not included.
 type Rewrite = fn(&str, Audience) -> std::result::Result<String, String>;
-const REWRITTEN: [(&str, Rewrite); 12] = [
+const REWRITTEN: [(&str, Rewrite); 13] = [
     ("Cargo.toml", manifests::workspace),
     ("Cargo.lock", manifests::lock),
     (".cargo/config.toml", manifests::aliases),
     ("skeleton/Cargo.toml", manifests::without_benches),
+    ("skeleton/view/Cargo.toml", manifests::without_benches),
     ("grader/Cargo.toml", manifests::without_tests),
     ("grader/classroom/Cargo.toml", manifests::without_tests),
     ("grader/harness/Cargo.toml", manifests::without_tests),

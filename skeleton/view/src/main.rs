@@ -1,0 +1,22 @@
+//! The renderer's window, with the student's algorithms: `cargo view SCENE.yml`.
+
+#[path = "../../src/algorithms/mod.rs"]
+pub mod algorithms;
+
+use std::process::ExitCode;
+
+use algorithms::{render_debug::DebugTracer, render_pt::PathTracer};
+use arty::cli::Algorithm;
+use arty_view::{Program, run};
+
+fn main() -> ExitCode {
+    run(&Program {
+        make: |algorithm| match algorithm {
+            Algorithm::Debug(view) => Box::new(DebugTracer::new(view)),
+            Algorithm::PathTracer(settings) => Box::new(PathTracer::new(settings)),
+        },
+        source: concat!(env!("CARGO_MANIFEST_DIR"), "/../src/algorithms/render_pt.rs"),
+        workspace: concat!(env!("CARGO_MANIFEST_DIR"), "/../.."),
+        build: &["--bin=arty-view", "--features=arty-view/window"],
+    })
+}
