@@ -7,8 +7,10 @@
 
 mod desktop;
 
+use std::fs::File;
 use std::path::PathBuf;
 use std::process::Command;
+use std::time::Duration;
 
 use arty::camera::CameraDescription;
 use arty::image::exr::ExrFile;
@@ -122,6 +124,52 @@ fn keys_and_mouse_change_the_picture_and_files_are_those_of_the_command_line() {
     program.wait_for("a wipe", halves, SIZE);
 }
 
+/// A saved file: the same content with another time. What stands in for cargo fails first, and then succeeds.
+#[test]
+fn a_saved_file_is_compiled_and_the_window_goes_on_with_its_camera() {
+    let Some(desktop) = Desktop::start() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let (cargo, fixed, calls) =
+        (folder.path().join("cargo"), folder.path().join("fixed"), folder.path().join("calls"));
+    let script = format!(
+        "#!/bin/sh\necho \"$@\" >> {}\n[ -e {} ] || {{ echo 'error: expected an expression' >&2; exit 101; }}\n",
+        calls.display(),
+        fixed.display()
+    );
+    std::fs::write(&cargo, script).expect("writing works");
+    std::fs::set_permissions(&cargo, std::os::unix::fs::PermissionsExt::from_mode(0o755))
+        .expect("it is ours");
+    let source =
+        File::open(concat!(env!("CARGO_MANIFEST_DIR"), "/src/algorithms/render_pt.rs")).expect("a file");
+    let saved = source.metadata().and_then(|metadata| metadata.modified()).expect("it has a time");
+    let save = |seconds| source.set_modified(saved + Duration::from_secs(seconds)).expect("it is ours");
+
+    let mut command = Command::new(env!("CARGO_BIN_EXE_solution-view"));
+    command
+        .arg(scene())
+        .args(["--width=256", "--samples=8", "--technique=nee", "--watch"])
+        .env("CARGO", &cargo);
+    let mut program = desktop.open(command);
+    program.key("Left");
+    program.key("r");
+    let moved = finished(&program, "mis");
+    save(1);
+    // The message is below, and the picture stays.
+    let has_message = |shot: &Shot| {
+        let upper = 0..SIZE.1 - 40;
+        shot.count(0xff_90_70) > 20
+            && upper.clone().all(|y| (0..SIZE.0).all(|x| shot.at(x, y) == moved.at(x, y)))
+    };
+    program.wait_for("the compiler's message", has_message, SIZE);
+    std::fs::write(&fixed, "").expect("writing works");
+    save(2);
+    program.wait_for_another_window();
+    finished(&program, "mis").assert_same(&moved, "after the reload");
+    save(0);
+    let calls = std::fs::read_to_string(&calls).expect("it was called");
+    assert!(calls.starts_with("build --bin=solution-view --features=solution/view --profile="), "{calls}");
+}
+
 #[test]
 fn a_moved_camera_is_shown_at_once_and_input_is_never_blocked() {
     let Some(desktop) = Desktop::start() else { return };
@@ -142,7 +190,7 @@ fn a_moved_camera_is_shown_at_once_and_input_is_never_blocked() {
     times.sort_unstable();
     // The time includes xdotool and the test's own look at the screen.
     println!("from a key to another picture: median {:?}, longest {:?}", times[5], times[9]);
-    assert!(times[5] < std::time::Duration::from_secs(1), "{times:?}");
+    assert!(times[5] < Duration::from_secs(1), "{times:?}");
 }
 
 #[test]

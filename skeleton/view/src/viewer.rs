@@ -187,8 +187,9 @@ impl Viewer {
 
     /// Off, against a technique, against the reference if there is one, off.
     fn next_wipe(&mut self) {
+        let left = self.settings.technique;
         self.wipe = match self.wipe {
-            None if self.settings.technique == Technique::Mis => Some(Right::Technique(Technique::Nee)),
+            None if left == Technique::Mis => Some(Right::Technique(Technique::Nee)),
             None => Some(Right::Technique(Technique::Mis)),
             Some(Right::Technique(_)) if self.has_reference => Some(Right::Reference),
             Some(_) => None,

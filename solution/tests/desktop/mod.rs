@@ -59,16 +59,9 @@ impl Desktop {
         std::thread::spawn(move || {
             output.lines().map_while(Result::ok).for_each(|line| drop(sender.send(line)));
         });
-        let id = child.id().to_string();
-        let window = until("a window", || {
-            let ended = child.try_wait().expect("its status is known");
-            assert_eq!(ended, None, "the program has ended");
-            let found = self.xdotool(&["search", "--pid", &id]);
-            found.lines().last().map(str::to_owned)
-        });
-        // Without a window manager nobody else gives it the focus.
-        self.xdotool(&["windowfocus", "--sync", &window]);
-        Program { desktop: self, child, lines, window, folder }
+        let mut program = Program { desktop: self, child, lines, window: String::new(), folder };
+        program.wait_for_another_window();
+        program
     }
 
     fn xdotool(&self, arguments: &[&str]) -> String {
@@ -117,6 +110,19 @@ impl Program<'_> {
     /// The folder the program runs in.
     pub(crate) fn folder(&self) -> &Path {
         self.folder.path()
+    }
+
+    /// Waits until the program has a window, or another one than before.
+    pub(crate) fn wait_for_another_window(&mut self) {
+        let id = self.child.id().to_string();
+        self.window = until("a window", || {
+            let ended = self.child.try_wait().expect("its status is known");
+            assert_eq!(ended, None, "the program has ended");
+            let found = self.desktop.xdotool(&["search", "--pid", &id]);
+            found.lines().last().filter(|window| **window != self.window).map(str::to_owned)
+        });
+        // Without a window manager nobody else gives it the focus.
+        self.desktop.xdotool(&["windowfocus", "--sync", &self.window]);
     }
 
     /// Presses a key.

@@ -205,7 +205,7 @@ impl Walk<'_> {
         let weight = match (technique, p_brdf, p_ne) {
             (Technique::Nee, Some(_), _) => 0.0,
             (Technique::Mis, Some(own), Some(other)) => own / (own + other),
-            _ => 1.0,
+            (Technique::Bsdf | Technique::Nee | Technique::Mis, ..) => 1.0,
         };
         let light = call.number("light").unwrap_or(0.0) as usize;
         let contribution = throughput * radiance * weight;
@@ -213,8 +213,7 @@ impl Walk<'_> {
     }
 
     fn light_sample(&mut self, call: &Call) {
-        let count = self.lights.len() as f32;
-        let light = find_light(call);
+        let (light, count) = (find_light(call), self.lights.len() as f32);
         let Some(vertex) = self.path.vertices.last_mut() else { return };
         let (Some(point), Some(emitted)) = (call.vector("point"), call.color("emitted")) else { return };
         let wi = (point - vertex.point).normalize_or_zero();
