@@ -57,7 +57,7 @@ fn finished(program: &Program, technique: &str) -> Shot {
 
 fn open(desktop: &Desktop) -> Program<'_> {
     let mut command = Command::new(env!("CARGO_BIN_EXE_solution-view"));
-    command.arg(scene()).args(["--width=256", "--samples=8", "--technique=nee"]);
+    command.arg(scene()).args(["--width=256", "--place=0,0,256,206", "--samples=8", "--technique=nee"]);
     desktop.open(command)
 }
 
@@ -100,6 +100,8 @@ fn keys_and_mouse_change_the_picture_and_files_are_those_of_the_command_line() {
     // Paths: drawn over the picture, gone after Escape.
     program.key("Escape");
     program.click((75, 150));
+    // Without the numbers, which have the same colours.
+    program.key("i");
     program.wait_for("shadow rays", |shot| shot.count(0x40_e8_60) + shot.count(0xff_50_40) > 20, SIZE);
     program.key("period");
     program.key("b");
@@ -147,7 +149,7 @@ fn a_saved_file_is_compiled_and_the_window_goes_on_with_its_camera() {
     let mut command = Command::new(env!("CARGO_BIN_EXE_solution-view"));
     command
         .arg(scene())
-        .args(["--width=256", "--samples=8", "--technique=nee", "--watch"])
+        .args(["--width=256", "--place=0,0,256,206", "--samples=8", "--technique=nee", "--watch"])
         .env("CARGO", &cargo);
     let mut program = desktop.open(command);
     program.key("Left");
@@ -163,7 +165,7 @@ fn a_saved_file_is_compiled_and_the_window_goes_on_with_its_camera() {
     program.wait_for("the compiler's message", has_message, SIZE);
     std::fs::write(&fixed, "").expect("writing works");
     save(2);
-    program.wait_for_another_window();
+    program.wait_for_restart("--camera=");
     finished(&program, "mis").assert_same(&moved, "after the reload");
     save(0);
     let calls = std::fs::read_to_string(&calls).expect("it was called");

@@ -63,6 +63,8 @@ pub enum Action {
     Step(i64),
     /// Show the path of the brightest sample.
     Brightest,
+    /// Hide or show the numbers of a path.
+    Numbers,
     /// Close what is open: paths, keys, wipe.
     Close,
 }
@@ -113,13 +115,14 @@ pub fn action(key: Key) -> Option<Action> {
             ',' => Action::Step(-1),
             '.' => Action::Step(1),
             'b' => Action::Brightest,
+            'i' => Action::Numbers,
             _ => return None,
         },
     })
 }
 
 /// Keys and what they do, for the window itself.
-pub const HELP: [(&str, &str); 20] = [
+pub const HELP: [(&str, &str); 21] = [
     ("arrows, left button", "orbit"),
     ("w a s d  q e", "walk, down and up"),
     ("Shift or right button", "pan"),
@@ -139,6 +142,7 @@ pub const HELP: [(&str, &str); 20] = [
     ("click", "show the paths of a pixel"),
     (", .", "path of the sample before, after"),
     ("b", "path of the brightest sample"),
+    ("i", "hide or show the numbers of a path"),
     ("Esc", "close paths, keys, wipe"),
 ];
 

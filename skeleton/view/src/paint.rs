@@ -49,7 +49,9 @@ pub fn paint(canvas: &mut Canvas<'_>, viewer: &Viewer, shown: &Shown<'_>) {
     if let Some(traced) = viewer.paths() {
         let camera = Camera::new(&viewer.camera.now(), viewer.size().0, viewer.size().1);
         path::draw(canvas, &fit, &camera, traced, shown.lights);
-        canvas.panel(4, 4, scale, &path::describe(traced, shown.lights));
+        if viewer.numbers {
+            canvas.panel(4, 4, scale, &path::describe(traced, shown.lights));
+        }
     }
     if viewer.help {
         let lines = HELP.map(|(keys, what)| (format!("{keys:<24}{what}"), TEXT));

@@ -49,7 +49,8 @@ pub struct Picture {
     pub samples: u64,
     /// Time spent on it.
     pub time: Duration,
-    /// Relative mean squared error against the reference; `None` without one, and for a coarse picture.
+    /// Relative mean squared error against the reference; `None` without one, for a coarse picture, from another camera, and
+    /// for properties of surfaces.
     pub relative_mse: Option<f64>,
     /// NaN, infinite and negative samples.
     pub anomalies: Anomalies,
@@ -129,7 +130,9 @@ impl Part {
         let has_samples = self.progress.samples > 0;
         let film = if has_samples { &self.film } else { self.coarse.as_ref()? };
         let image = image(film, Pixel::mean);
-        let relative_mse = reference.filter(|_| has_samples).map(|reference| reference.relative_mse(&image));
+        let is_radiance = matches!(self.algorithm, Algorithm::PathTracer(_));
+        let reference = reference.filter(|_| has_samples && is_radiance);
+        let relative_mse = reference.map(|reference| reference.relative_mse(&image));
         Some(Picture {
             algorithm: self.algorithm,
             image,

@@ -179,7 +179,9 @@ impl<Publish: Fn(News, Option<Frame>)> Worker<Publish> {
         let level = view.balance == Balance::EqualTime
             || parts.iter().all(|other| other.progress().samples == parts[0].progress().samples);
         if !stopped && level {
-            let reference = self.setup.reference.as_deref();
+            // From another camera, the reference shows something else.
+            let is_comparable = view.camera == self.setup.description.camera;
+            let reference = self.setup.reference.as_deref().filter(|_| is_comparable);
             let pictures: Vec<Picture> = parts.iter().filter_map(|part| part.picture(reference)).collect();
             if pictures.len() == parts.len() {
                 (self.publish)(News::Frame, Some(Frame { view: *view, pictures }));

@@ -39,6 +39,8 @@ pub struct Viewer {
     pub query: Option<Query>,
     /// The paths that were traced last.
     pub traced: Option<Traced>,
+    /// True if the numbers of the chosen path are shown, too.
+    pub numbers: bool,
     /// A line about what was done last.
     pub message: Option<String>,
     has_reference: bool,
@@ -79,6 +81,7 @@ impl Viewer {
             divider: 0.5,
             query: None,
             traced: None,
+            numbers: true,
             message: None,
             has_reference,
             size,
@@ -176,6 +179,7 @@ impl Viewer {
                 }
             }
             Action::Brightest => self.go_to_brightest(),
+            Action::Numbers => self.numbers = !self.numbers,
             Action::Close => self.close(),
         }
         // A technique chosen for the left part must not be that of the right one, too.

@@ -28,6 +28,9 @@ use crate::title::title;
 use crate::view::View;
 use crate::viewer::{Effect, Viewer};
 
+/// Width in pixels up to which small pictures are shown larger.
+const LEGIBLE: u32 = 640;
+
 /// What a window shows.
 pub(crate) struct Content {
     pub(crate) program: Program,
@@ -232,7 +235,11 @@ impl ApplicationHandler<Message> for Shell {
         let (width, height) = self.content.viewer.size();
         let mut attributes = Window::default_attributes().with_title(self.scene_name());
         attributes = match self.content.args.place {
-            None => attributes.with_inner_size(PhysicalSize::new(width, height)),
+            None => {
+                // Panels need some place, too.
+                let scale = (LEGIBLE / width).max(1);
+                attributes.with_inner_size(PhysicalSize::new(scale * width, scale * height))
+            }
             Some(place) => attributes
                 .with_inner_size(PhysicalSize::new(place.width, place.height))
                 .with_position(PhysicalPosition::new(place.left, place.top)),

@@ -20,16 +20,16 @@ use arty_view::view::{Against, Balance, View};
 
 const SIZE: (u32, u32) = (61, 37);
 
-/// Direction and a random number; panics if asked for normals; slow with `mis`.
+/// Direction and a random number; panics if asked for normals. With `mis` it takes a microsecond per bounce.
 struct Noise(Algorithm);
 
 impl Integrator for Noise {
     fn radiance(&self, _: &Scene, ray: Ray, sampler: &mut Sampler) -> Rgb {
         match self.0 {
             Algorithm::Debug(_) => panic!("on purpose"),
-            Algorithm::PathTracer(Settings { technique: Technique::Mis, .. }) => {
+            Algorithm::PathTracer(Settings { technique: Technique::Mis, max_bounces }) => {
                 let start = Instant::now();
-                while start.elapsed() < Duration::from_micros(20) {}
+                while start.elapsed() < Duration::from_micros(max_bounces.into()) {}
             }
             Algorithm::PathTracer(_) => {}
         }
@@ -44,7 +44,7 @@ fn description() -> SceneDescription {
 }
 
 fn traced(technique: Technique) -> Algorithm {
-    Algorithm::PathTracer(Settings { technique, max_bounces: 1 })
+    Algorithm::PathTracer(Settings { technique, max_bounces: 20 })
 }
 
 fn view(algorithm: Algorithm) -> View {
@@ -87,7 +87,9 @@ fn the_picture_is_the_one_that_the_command_line_renders() {
 
 #[test]
 fn while_the_camera_moves_all_the_time_there_are_pictures() {
-    let mut moving = view(traced(Technique::Mis));
+    // Even a coarse picture takes longer than the time between two moves.
+    let settings = Settings { technique: Technique::Mis, max_bounces: 1000 };
+    let mut moving = view(Algorithm::PathTracer(settings));
     let (renderer, news) = start(moving, None);
     let mut shown = 0;
     for step in 0..300 {
@@ -110,15 +112,15 @@ fn two_pictures_have_equal_samples_or_equal_time() {
     assert_eq!(fast.samples, slow.samples);
     assert!(slow.time > fast.time, "{:?}, {:?}", slow.time, fast.time);
     renderer.show(View { balance: Balance::EqualTime, ..samples });
-    let is_far = |frame: &Frame| {
+    // A single pass may take long on a busy machine, so that the times get alike only after some of them.
+    let is_balanced = |frame: &Frame| {
+        let [fast, slow] = &frame.pictures[..] else { return false };
+        let ratio = fast.time.as_secs_f64() / slow.time.as_secs_f64();
         frame.view.balance == Balance::EqualTime
-            && frame.pictures.iter().all(|picture| picture.time > Duration::from_secs(1))
+            && (0.5..2.0).contains(&ratio)
+            && fast.samples > 2 * slow.samples
     };
-    let frame = wait(&renderer, &news, is_far);
-    let [fast, slow] = &frame.pictures[..] else { panic!("two pictures") };
-    assert!(fast.samples > 2 * slow.samples, "{} and {}", fast.samples, slow.samples);
-    let ratio = fast.time.as_secs_f64() / slow.time.as_secs_f64();
-    assert!((0.5..2.0).contains(&ratio), "{ratio}");
+    wait(&renderer, &news, is_balanced);
 }
 
 #[test]

@@ -60,7 +60,7 @@ impl Desktop {
             output.lines().map_while(Result::ok).for_each(|line| drop(sender.send(line)));
         });
         let mut program = Program { desktop: self, child, lines, window: String::new(), folder };
-        program.wait_for_another_window();
+        program.wait_for_window();
         program
     }
 
@@ -112,14 +112,24 @@ impl Program<'_> {
         self.folder.path()
     }
 
-    /// Waits until the program has a window, or another one than before.
-    pub(crate) fn wait_for_another_window(&mut self) {
+    /// Waits until the process was started with an argument that begins like this, and has a window.
+    pub(crate) fn wait_for_restart(&mut self, beginning: &str) {
+        let file = format!("/proc/{}/cmdline", self.child.id());
+        until(beginning, || {
+            let arguments = std::fs::read_to_string(&file).unwrap_or_default();
+            arguments.split('\0').any(|argument| argument.starts_with(beginning)).then_some(())
+        });
+        self.wait_for_window();
+    }
+
+    /// Waits until the program has a window.
+    fn wait_for_window(&mut self) {
         let id = self.child.id().to_string();
         self.window = until("a window", || {
             let ended = self.child.try_wait().expect("its status is known");
             assert_eq!(ended, None, "the program has ended");
             let found = self.desktop.xdotool(&["search", "--pid", &id]);
-            found.lines().last().filter(|window| **window != self.window).map(str::to_owned)
+            found.lines().last().map(str::to_owned)
         });
         // Without a window manager nobody else gives it the focus.
         self.desktop.xdotool(&["windowfocus", "--sync", &self.window]);

@@ -41,7 +41,7 @@ pub fn describe(traced: &Traced, lights: Areas<'_>) -> Vec<(String, u32)> {
     let without = if path.roulette { " without roulette" } else { "" };
     lines.push((format!("sum{without}     {}", color(path.sum())), PLAIN));
     lines.push((format!("your file returned {}", color(path.returned)), PLAIN));
-    lines.push((", .  step    b  brightest    Esc  close".to_owned(), UNTESTED));
+    lines.push((", .  step   b  brightest   i  hide   Esc  close".to_owned(), UNTESTED));
     lines
 }
 

@@ -46,10 +46,10 @@ fn bounces_change_the_picture_and_do_not_get_negative() {
 fn what_is_only_shown_differently_is_not_rendered_again() {
     let mut viewer = viewer(Technique::Nee);
     let view = viewer.view();
-    press(&mut viewer, "++-t? ,.b");
+    press(&mut viewer, "++-t? ,.bi");
     viewer.mouse(Gesture::Divider(30.0));
     assert_eq!(viewer.view(), view);
-    assert_eq!((viewer.look.exposure, viewer.paused, viewer.help), (0.5, true, true));
+    assert_eq!((viewer.look.exposure, viewer.paused, viewer.help, viewer.numbers), (0.5, true, true, false));
     press(&mut viewer, "0");
     assert_eq!(viewer.look.exposure, 0.0);
 }
