@@ -12,10 +12,10 @@
 //! | [`view`] | what a picture depends on |
 //! | [`camera`] | moving the camera |
 //! | [`look`] | exposure and tone map |
-//! | [`keys`], [`pointer`] | what keys and mouse mean |
+//! | [`keys`], [`pointer`](mod@pointer) | what keys and mouse mean |
 //! | [`viewer`] | the state of the window, and what changes it |
 //! | [`schedule`] | which pass comes next: coarse pictures first, then samples |
-//! | [`part`], [`reference`] | a picture while it is refined, and what it is compared with |
+//! | [`part`], [`reference`](mod@reference) | a picture while it is refined, and what it is compared with |
 //! | `orders`, [`renderer`] | the thread that renders the latest view |
 //! | [`path`](mod@path) | the paths of a pixel: recorded calls, vertices, drawing |
 //! | [`canvas`], [`fit`], [`paint`], [`title`] | what is in the window |
