@@ -234,7 +234,7 @@ fn a_source_of_megabytes_is_not_even_compiled() {
     let file = folder.path().join("render_pt.rs");
     std::fs::write(&file, "// x\n".repeat(200_000)).expect("it can be written");
     let error = intake::read(&file).expect_err("it is refused").to_string();
-    assert!(error.contains("too many"), "{error}");
+    assert!(error.contains("too large"), "{error}");
 }
 
 #[test]

@@ -19,7 +19,7 @@ use crate::marks::Marks;
 use crate::policy::{Lateness, Policy, Receipt, the_one_that_counts};
 use harness::tree_hash::hash_judging;
 use harness::workspace::Workspace;
-use intake::{Intake, Reader};
+use intake::{Intake, Reader, Refusal};
 use judge::grade::{Grader, Options};
 use judge::reference::Oracle;
 use present::streams::note;
@@ -319,7 +319,14 @@ impl Shared<'_> {
     /// Reads a submission; its receipt may say which file of it is the source.
     fn read(&self, paths: &[PathBuf], receipt: Option<&Receipt>) -> Result<Intake> {
         let source = receipt.and_then(|receipt| receipt.source.as_deref());
-        self.options.reader.take(paths, &self.starter_text, source)
+        let intake = self.options.reader.take(paths, &self.starter_text, source)?;
+        match &intake.outcome {
+            // The manifest is wrong, which must not cost the student anything.
+            Err(refusal @ Refusal::NotThere(..)) => {
+                Err(Error::Input(format!("the column `source` of the manifest: {refusal}")))
+            }
+            _ => Ok(intake),
+        }
     }
 
     fn key(&self, source: &str) -> String {
