@@ -30,12 +30,33 @@ impl Diagnostic {
 
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:", self.file.display())?;
+        write!(f, "{}:", printable(&self.file.to_string_lossy()))?;
         if let Some(line) = self.line {
             write!(f, "{line}:")?;
         }
-        write!(f, " {}", self.message)
+        write!(f, " {}", printable(&self.message))
     }
 }
 
+/// A text that quotes a file, without what could command a terminal.
+fn printable(text: &str) -> String {
+    let is_harmless = |character: char| character == '\n' || !character.is_control();
+    text.chars().map(|character| if is_harmless(character) { character } else { '\u{fffd}' }).collect()
+}
+
 impl std::error::Error for Diagnostic {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_file_is_quoted_with_cannot_command_a_terminal() {
+        let quoted =
+            Diagnostic::at(Path::new("a\x07.mtl"), 2, "material `\x1b[31mred\u{9b}0m` is defined twice");
+        assert_eq!(
+            quoted.to_string(),
+            "a\u{fffd}.mtl:2: material `\u{fffd}[31mred\u{fffd}0m` is defined twice"
+        );
+    }
+}

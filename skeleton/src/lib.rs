@@ -1,5 +1,7 @@
 //! **arty**: a small physically based renderer for teaching light transport.
 //!
+//! Students start with the [`prelude`].
+//!
 //! An [`Integrator`](integrator::Integrator) estimates the radiance that arrives along a ray; everything else serves
 //! it. Read the modules in this order: each one needs only those above it.
 //!

@@ -40,6 +40,9 @@ fn diagnostic(path: &Path, text: &str, error: &serde_yaml::Error) -> Diagnostic 
     if words.starts_with('\t') {
         message.push_str("; use spaces instead of tabs for indentation");
     }
+    if words.contains('"') && words.contains('\\') {
+        message.push_str("; in double quotes, `\\` begins an escape: write `/`, or use single quotes");
+    }
     Diagnostic::at(path, line, shortened(&message))
 }
 

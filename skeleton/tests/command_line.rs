@@ -6,7 +6,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
-use arty::image::exr::ExrFile;
+use arty::image::exr::{ExrFile, Precision};
 
 /// An emissive triangle in front of the camera and a point light, which BSDF sampling never finds.
 const SCENE: &str = "\
@@ -91,14 +91,14 @@ impl From<Output> for Run {
 fn an_image_is_saved_in_the_current_folder() {
     let folder = Folder::new();
     let run = folder.render("--algo=pt scene.yml --samples=2");
-    assert_eq!(folder.files(), ["scene.png"]);
-    let picture = image::open(folder.path("scene.png")).expect("a PNG file").into_rgb8();
+    assert_eq!(folder.files(), ["scene-mis.png"]);
+    let picture = image::open(folder.path("scene-mis.png")).expect("a PNG file").into_rgb8();
     assert_eq!(picture.dimensions(), (40, 30), "as the scene suggests");
     // Radiance (2, 1, 0.5): cut off at white, white, and level 188.
     assert_eq!(picture.get_pixel(20, 15).0, [255, 255, 188]);
     assert_eq!(picture.get_pixel(0, 0).0, [0, 0, 0]);
     assert_eq!(run.stdout, "", "results go to files");
-    assert!(run.stderr.contains("2 samples per pixel in ") && run.stderr.contains("saved scene.png"));
+    assert!(run.stderr.contains("2 samples per pixel in ") && run.stderr.contains("saved scene-mis.png"));
     assert!(!run.stderr.contains('\x1b'), "no colours for a file: {}", run.stderr);
 }
 
@@ -266,7 +266,8 @@ fn errors_are_reported_before_rendering() {
         ("scene.yml -s 999999999 -o ok.png -o missing/x.exr", "error: missing/x.exr: cannot be written"),
         ("scene.yml -s 999999999 --width=65536 --height=65536", "error: 65536 x 65536 pixels are too many"),
         ("broken.yml -s 999999999", "error: broken.yml:2: "),
-        ("nowhere.yml", "error: nowhere.yml: "),
+        ("nowhere.yml", "error: nowhere.yml: no such file"),
+        ("skene.yml", "error: skene.yml: no such file"),
         ("scene.yml --technique=luck", "error: invalid value 'luck'"),
         ("", "error: the following required arguments"),
     ];
@@ -286,7 +287,7 @@ fn an_unreachable_viewer_gives_one_warning() {
     let run = folder.render("scene.yml -t 1.5 --tev=127.0.0.1:1 --quiet");
     assert_eq!(run.stderr.matches("warning: cannot reach the tev viewer at 127.0.0.1:1").count(), 1);
     assert_eq!(run.stderr.lines().count(), 1);
-    assert_eq!(folder.files(), ["scene.png"]);
+    assert_eq!(folder.files(), ["scene-mis.png"]);
 }
 
 #[test]
@@ -331,7 +332,7 @@ fn the_error_against_a_reference_is_printed_and_saved() {
     );
     let run = folder.render("scene.yml --samples=64 --technique=bsdf --reference=reference.exr");
     assert!(run.stdout.contains("64 samples") && run.stdout.contains("relMSE"), "{}", run.stdout);
-    let picture = image::open(folder.path("scene.png")).expect("a PNG file");
+    let picture = image::open(folder.path("scene-bsdf.png")).expect("a PNG file");
     assert_eq!((picture.width(), picture.height()), (20, 15), "the size is that of the reference");
     assert!(run.stderr.contains("1 bounce)"), "and so are the bounces: {}", run.stderr);
     let table = fs::read_to_string(folder.path("scene.errors.csv")).expect("the table is there");
@@ -351,14 +352,18 @@ fn the_error_against_a_reference_is_printed_and_saved() {
 fn an_unusable_reference_is_refused_before_rendering() {
     let folder = Folder::new();
     folder.render("scene.yml --width=20 --samples=1 -o reference.exr");
+    let picture = folder.exr("reference.exr").layer("").expect("the picture");
+    let layers = ExrFile { width: 20, height: 15, ..ExrFile::default() }.with_layer("beauty", &picture);
+    layers.write(&folder.path("layers.exr"), Precision::Full).expect("it can be written");
     for (arguments, expected) in [
         ("scene.yml --reference=reference.exr --width=30", "20 x 15 pixels"),
         ("scene.yml --reference=missing.exr", "missing.exr"),
+        ("scene.yml --reference=layers.exr", "but beauty.B, beauty.G, beauty.R; save the layer"),
         ("scene.yml --reference=scene.yml", "scene.yml"),
     ] {
         let run = folder.run(arguments);
         assert_eq!(run.status, Some(2), "{arguments}: {}", run.stderr);
         assert!(run.stderr.contains(expected), "{arguments}: {}", run.stderr);
     }
-    assert!(!folder.path("scene.errors.csv").exists() && !folder.path("scene.png").exists());
+    assert!(!folder.path("scene.errors.csv").exists() && !folder.path("scene-bsdf.png").exists());
 }

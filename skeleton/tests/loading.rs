@@ -219,6 +219,28 @@ fn polygons_are_triangulated_with_their_attributes_and_materials() {
 }
 
 #[test]
+fn colours_of_some_vertices_are_ignored() {
+    let obj = "v 0 0 0 1 1 1\nv 1 0 0\nv 0 1 0 0 0.5 1 # red\nf 1 2 3\n";
+    let loaded = load_obj(obj, "");
+    assert_eq!(corners(&loaded.description.meshes[0], 0), [Vec3::ZERO, Vec3::X, Vec3::Y]);
+}
+
+#[test]
+fn a_concave_polygon_has_its_own_area() {
+    let obj = "v 2 0 0\nv 0.5 0.5 0\nv 0 2 0\nv 0 0 0\nvn 0 0 1\nf 1//1 2//1 3//1 4//1\n";
+    let loaded = load_obj(obj, "");
+    let mesh = &loaded.description.meshes[0];
+    let area = |triangle: usize| {
+        let [a, b, c] = corners(mesh, triangle);
+        // Towards the same side as the polygon's corners, which are clockwise.
+        (b - a).cross(c - a).z / -2.0
+    };
+    let areas: Vec<f32> = (0..mesh.triangles.len()).map(area).collect();
+    assert_eq!((areas.len(), areas.iter().sum::<f32>()), (2, 1.0), "{areas:?}");
+    assert!(areas.iter().all(|area| *area > 0.0), "{areas:?}");
+}
+
+#[test]
 fn normals_of_length_zero_give_flat_shading_and_one_warning() {
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1e-30\nvn 0 0 0\nf 1//1 2//1 3//1\nf 1//1 2//2 3//2\n";
     let loaded = load_obj(obj, "");

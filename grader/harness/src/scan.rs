@@ -30,6 +30,33 @@ const MACROS: [(&str, &str); 5] = [
     ("option_env", "a submission cannot read the environment, not even at compile time"),
 ];
 
+/// Macros that print.
+const PRINTING: [&str; 5] = ["print", "println", "eprint", "eprintln", "dbg"];
+
+/// Lines of a source that print, counted from 1. Comments and strings are skipped; a source that is not Rust has none.
+pub fn prints(source: &str) -> Vec<usize> {
+    let Ok(tokens) = TokenStream::from_str(source) else { return Vec::new() };
+    let (mut lines, mut waiting) = (Vec::new(), vec![tokens]);
+    while let Some(tokens) = waiting.pop() {
+        let tokens: Vec<TokenTree> = tokens.into_iter().collect();
+        for (index, token) in tokens.iter().enumerate() {
+            let calls = |next: &TokenTree| is_punctuation(next, '!');
+            if name(token).is_some_and(|name| PRINTING.contains(&name.as_str()))
+                && tokens.get(index + 1).is_some_and(calls)
+            {
+                lines.push(token.span().start().line);
+            }
+            if let TokenTree::Group(group) = token {
+                waiting.push(group.stream());
+            }
+        }
+    }
+    lines.sort_unstable();
+    lines.dedup();
+    lines.truncate(LISTED);
+    lines
+}
+
 /// Finds such uses in a source. A source that is not Rust has no findings: the compiler reports it.
 pub fn scan(source: &str) -> Vec<SourceFinding> {
     let Ok(tokens) = TokenStream::from_str(source) else { return Vec::new() };
@@ -148,6 +175,12 @@ mod tests {
             use std::cell::{Cell as process};
         "##;
         assert_eq!(found(source), []);
+    }
+
+    #[test]
+    fn lines_that_print_are_named() {
+        let source = "// println!()\nfn f() {\n    println!(\"dbg!\"); dbg!(1);\n    if true { eprint!(\"x\") }\n}\nfn print() {}";
+        assert_eq!(prints(source), [3, 4]);
     }
 
     #[test]

@@ -24,6 +24,8 @@ mod serve;
 mod stdio;
 
 #[cfg(feature = "serve")]
+pub use arty::probe::record_print as printed;
+#[cfg(feature = "serve")]
 pub use constructor::Constructor;
 #[cfg(feature = "serve")]
 pub use serve::serve;

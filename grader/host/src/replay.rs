@@ -17,7 +17,7 @@ pub(crate) fn path(key: &Key, constructor: Constructor, scene: &Scene, job: &Rep
     let radiance = sample_pixel(&*integrator, scene, &camera, job.seed, (x, y), job.sample);
     let recording = take_recording(key);
     let values = |values: Vec<probe::Value>| {
-        values.into_iter().map(|value| (value.name.to_owned(), value.numbers)).collect()
+        values.into_iter().map(|value| (value.name.into_owned(), value.numbers)).collect()
     };
     let call = |call: probe::Call| Call {
         function: call.function.to_owned(),

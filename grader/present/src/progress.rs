@@ -10,10 +10,12 @@ use verdict::check::{CheckResult, Verdict};
 use crate::terminal::{loud, one_line, paint};
 use crate::words::explanation;
 
-/// A bar with what fails above it on a terminal; a line for each check elsewhere.
+/// A bar with what fails above it on a terminal; a line for each check elsewhere. Either can do without the checks.
 pub struct Progress {
     bar: ProgressBar,
     kind: Kind,
+    /// True if each check that ends is shown.
+    shows_checks: bool,
     passed: usize,
     done: usize,
 }
@@ -29,12 +31,17 @@ impl Progress {
     /// As standard error is: a terminal or not.
     pub fn new() -> Self {
         let kind = if std::io::stderr().is_terminal() { Kind::Terminal } else { Kind::Lines };
-        Self { bar: ProgressBar::hidden(), kind, passed: 0, done: 0 }
+        Self { bar: ProgressBar::hidden(), kind, shows_checks: true, passed: 0, done: 0 }
+    }
+
+    /// The same without a line for each check.
+    pub fn without_checks() -> Self {
+        Self { shows_checks: false, ..Self::new() }
     }
 
     /// Nothing is shown.
     pub fn hidden() -> Self {
-        Self { bar: ProgressBar::hidden(), kind: Kind::Hidden, passed: 0, done: 0 }
+        Self { bar: ProgressBar::hidden(), kind: Kind::Hidden, shows_checks: false, passed: 0, done: 0 }
     }
 
     /// A sentence that stays.
@@ -71,17 +78,19 @@ impl Progress {
         self.done += 1;
         self.passed += usize::from(check.verdict == Verdict::Pass);
         let line = || format!("{:>12}  {}  {}", loud(&check.verdict), check.id, explanation(check));
+        // After a loop without end, nearly all checks are not run: that is said once.
+        let shown = self.shows_checks && !matches!(check.verdict, Verdict::NotRun { .. });
         match self.kind {
             Kind::Terminal => {
-                if check.verdict != Verdict::Pass {
+                if shown && check.verdict != Verdict::Pass {
                     let line = paint(&check.verdict, &one_line(&line()));
                     self.bar.suspend(|| write_line(&line));
                 }
                 self.bar.set_message(format!("{} passed", self.passed));
                 self.bar.inc(1);
             }
-            Kind::Lines => write_line(&line()),
-            Kind::Hidden => {}
+            Kind::Lines if shown => write_line(&line()),
+            Kind::Lines | Kind::Hidden => {}
         }
     }
 

@@ -78,6 +78,7 @@ fn new_table(header: &[&str]) -> Table {
 fn listed(values: &[NamedValue]) -> String {
     let one = |value: &NamedValue| match &value.word {
         Some(word) => format!("{} {word}", value.name),
+        None if value.numbers.is_empty() => value.name.clone(),
         None => format!("{} {}", value.name, written(&value.numbers)),
     };
     values.iter().map(one).collect::<Vec<_>>().join("\n")

@@ -16,7 +16,7 @@ use judge::grade::{Grader, Options};
 use present::export::Export;
 use present::page::remove_pages;
 use present::streams::{note, print_line};
-use present::{Progress, print_profile, print_sum, print_summary};
+use present::{Detail, Progress, print_profile, print_sum, print_summary};
 use verdict::error::{Error, Result};
 use verdict::output;
 use verdict::report::Report;
@@ -57,6 +57,9 @@ pub(super) struct Arguments {
     /// (`-` is standard output); repeatable
     #[arg(long, value_name = "FORMAT[:FILE]", conflicts_with = "watch")]
     export: Vec<Export>,
+    /// Print every task with its failed checks, all likely causes and all remarks, not only the next step
+    #[arg(long, conflicts_with_all = ["quiet", "watch"])]
+    all: bool,
     /// Print how much time each step and each check took
     #[arg(long, conflicts_with_all = ["quiet", "watch"])]
     profile: bool,
@@ -80,7 +83,11 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
     let file = arguments.out.join("report.json");
     prepare(arguments, &file)?;
     let marks = Marks::open(&arguments.out)?;
-    let mut progress = if arguments.quiet { Progress::hidden() } else { Progress::new() };
+    let mut progress = match arguments.detail() {
+        _ if arguments.quiet => Progress::hidden(),
+        Detail::Next => Progress::without_checks(),
+        Detail::All => Progress::new(),
+    };
     if Framework::is_first(workspace) {
         progress.say("building the framework that submissions are linked against: once, takes a minute …");
     }
@@ -136,6 +143,10 @@ impl Arguments {
         }
     }
 
+    fn detail(&self) -> Detail {
+        if self.all { Detail::All } else { Detail::Next }
+    }
+
     fn options(&self) -> Options {
         Options {
             assignment: self.assignment.name.clone(),
@@ -184,7 +195,7 @@ fn print_points(
     if arguments.quiet {
         print_sum(report);
     } else {
-        print_summary(report);
+        print_summary(report, arguments.detail());
     }
     if let Some(received) = received {
         print_line(received.describe(report.points.earned, checksums))?;

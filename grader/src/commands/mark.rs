@@ -9,9 +9,9 @@ use harness::assignment::Assignment;
 use harness::workspace::Workspace;
 use present::page::{Readers, pages_beside, pictures_beside, write_pages};
 use present::pictures::load;
-use present::print_summary;
 use present::streams::note;
 use present::words::count;
+use present::{Detail, print_summary};
 use verdict::error::{Error, Result};
 use verdict::output;
 use verdict::report::Report;
@@ -81,6 +81,6 @@ fn update_report(arguments: &Arguments, submission: &str, marks: &Marks) -> Resu
         let pictures = load(&pictures_beside(&file)).unwrap_or_default();
         write_pages(&report, &pictures, &file, Readers::Staff(None))?;
     }
-    print_summary(&report);
+    print_summary(&report, Detail::All);
     Ok(())
 }

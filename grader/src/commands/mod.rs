@@ -8,6 +8,7 @@ mod doctor;
 mod export;
 mod full_report;
 mod grade;
+mod hint;
 mod intake;
 mod lateness;
 mod mark;
@@ -43,6 +44,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Grade(grade::Arguments),
+    Hint(hint::Arguments),
     Doctor(doctor::Arguments),
     Class(class::Arguments),
     Pack(pack::Arguments),
@@ -73,6 +75,7 @@ impl Arguments {
         let workspace = || self.workspace.as_deref().map_or_else(Workspace::find, Workspace::open);
         match &self.command {
             Command::Grade(arguments) => grade::run(arguments, &workspace()?),
+            Command::Hint(arguments) => hint::run(arguments, &workspace()?),
             Command::Doctor(_) => doctor::run(&workspace()?),
             Command::Class(arguments) => class::run(arguments, &workspace()?),
             Command::Pack(arguments) => pack::run(arguments, &workspace()?),
@@ -88,7 +91,7 @@ impl Arguments {
 }
 
 /// Commands that `--help` shows only in a checkout with the solution.
-const STAFF_COMMANDS: [&str; 2] = ["class", "mark"];
+const STAFF_COMMANDS: [&str; 5] = ["class", "mark", "plan", "export", "converge"];
 
 /// Options of `grade` that `--help` shows only there.
 const STAFF_OPTIONS: [&str; 4] = ["missing_is_zero", "received_at", "course", "student"];

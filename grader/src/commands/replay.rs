@@ -11,7 +11,7 @@ use harness::build::{Framework, compile};
 use harness::job::JobError;
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
-use judge::reference::{Oracle, SIZE};
+use judge::reference::Oracle;
 use judge::replay::{follow, load, vertices};
 use present::replay::print;
 use present::streams::unless_unread;
@@ -24,8 +24,8 @@ use verdict::rubric::EmissionOnHit;
 /// Replay one path of a submission and show every call it makes; reports give this command for their findings
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// A render_pt.rs, or a folder with one in it
-    submission: PathBuf,
+    /// A render_pt.rs, or a folder with one in it [default: the student file in the skeleton]
+    submission: Option<PathBuf>,
     /// Name of a scene in scenes/ or scenes/extreme/, or stability-room
     #[arg(long)]
     scene: String,
@@ -42,9 +42,9 @@ pub(super) struct Arguments {
     #[arg(long, default_value_t = 8)]
     max_bounces: u32,
     /// Seed of the rendering
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// Width and height of the image [default: those of the references]
+    /// Width and height of the image [default: those of the scene]
     #[arg(long, value_name = "WxH", value_parser = |text: &str| pair(text, 'x'))]
     size: Option<[u32; 2]>,
     /// Multiply all lengths of the scene by this factor
@@ -85,12 +85,21 @@ struct Replay<'a> {
 }
 
 pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
-    let target = arguments.target()?;
-    if arguments.view {
-        return view(&target, &arguments.submission, workspace);
-    }
+    let path = arguments.submission.clone().unwrap_or_else(|| workspace.student_file());
+    let mut target = arguments.target()?;
     let description = load(workspace, &target)?;
-    let submission = reader().read(&arguments.submission)?;
+    // As `cargo arty` renders it.
+    let suggested = description.defaults;
+    let [width, height] =
+        arguments.size.unwrap_or([suggested.width.unwrap_or(512), suggested.height.unwrap_or(412)]);
+    if target.pixel[0] >= width || target.pixel[1] >= height {
+        return Err(Error::Input(format!("--pixel: the image has {width} x {height} pixels")));
+    }
+    target.size = [width, height];
+    if arguments.view {
+        return view(&target, &path, workspace);
+    }
+    let submission = reader().read(&path)?;
     let program = compile(&Framework::build(workspace)?, &submission.source, &Limits::default())?
         .map_err(|failure| Error::Input(format!("the submission does not compile:\n{}", failure.messages)))?;
     let submission = follow(&program, &target, &description).map_err(|error| match error {
@@ -109,7 +118,7 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
     let vertices = solution.as_ref().map(|path| vertices(path, target.technique, &description));
     let replay = Replay {
         schema: "arty-replay/2",
-        command: &replay_command(&target, &arguments.submission.to_string_lossy()),
+        command: &replay_command(&target, &path.to_string_lossy()),
         submission: &submission,
         solution: solution.as_ref(),
         vertices: vertices.as_deref(),
@@ -160,10 +169,6 @@ impl Arguments {
         if self.hits_off {
             return Err(Error::Input("--hits-off is now called --emission-on-hit=off".to_owned()));
         }
-        let [width, height] = self.size.unwrap_or([SIZE.0, SIZE.1]);
-        if self.pixel[0] >= width || self.pixel[1] >= height {
-            return Err(Error::Input(format!("--pixel: the image has {width} x {height} pixels")));
-        }
         Ok(ReplayTarget {
             scene: self.scene.clone(),
             scale: self.scale,
@@ -171,7 +176,7 @@ impl Arguments {
             technique: self.technique,
             max_bounces: self.max_bounces,
             emission_on_hit: self.emission_on_hit,
-            size: [width, height],
+            size: self.size.unwrap_or_default(),
             seed: self.seed,
             pixel: self.pixel,
             sample: self.sample,

@@ -6,15 +6,14 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 use super::intake::reader;
-use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
-use comfy_table::{Cell, CellAlignment, Color, ContentArrangement, Table};
 use notify_debouncer_mini::new_debouncer;
 use notify_debouncer_mini::notify::{self, RecursiveMode};
 
 use harness::workspace::Workspace;
 use judge::grade::{Grader, Options};
-use present::words::{explanation, number_of_points};
-use verdict::check::{CheckResult, Verdict};
+use present::page::write_watched_pages;
+use present::summary_since;
+use verdict::check::Verdict;
 use verdict::error::{Error, Result};
 use verdict::report::Report;
 use verdict::submission::Submission;
@@ -44,13 +43,16 @@ pub(super) fn watch(workspace: &Workspace, path: &Path, options: &Options, file:
     debouncer.watcher().watch(&folder, mode).map_err(trouble)?;
 
     let grader = Grader::new(workspace, options)?;
-    let mut last = None;
+    let (mut last, mut earlier) = (None, None);
     loop {
         match reader().read(path) {
             Ok(submission) if last.as_ref() == Some(&submission.hash()) => {}
             Ok(submission) => {
                 last = Some(submission.hash());
-                show(&grade_once(&grader, &submission, file), path);
+                let (text, report) = grade_once(&grader, &submission, file, earlier.as_ref());
+                show(&text, path);
+                // A file that does not compile has no checks to compare with.
+                earlier = report.filter(|report| !report.checks.is_empty()).or(earlier);
             }
             Err(error) => {
                 last = None;
@@ -74,29 +76,37 @@ fn folder_of(path: &Path) -> PathBuf {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_owned()
 }
 
-/// Grades, and returns what to show. The table is drawn again after each check.
-fn grade_once(grader: &Grader, submission: &Submission, file: &Path) -> String {
-    let mut checks: Vec<CheckResult> = Vec::new();
+/// Grades, and returns what to show and the report. The number of checks is drawn again after each check.
+fn grade_once(
+    grader: &Grader,
+    submission: &Submission,
+    file: &Path,
+    earlier: Option<&Report>,
+) -> (String, Option<Report>) {
+    let (mut done, mut passed) = (0, 0);
     show("compiling …", &submission.path);
     let graded = grader.grade(submission, |check| {
-        checks.push(check.clone());
+        done += 1;
+        passed += usize::from(check.verdict == Verdict::Pass);
         if std::io::stdout().is_terminal() {
-            show(&format!("{}\nchecking …", table_of(&checks)), &submission.path);
+            show(&format!("{done} of {} checks, {passed} passed …", grader.planned()), &submission.path);
         }
     });
     let report = match graded {
         Ok(report) => report,
-        Err(error) => return format!("error: {error}"),
+        Err(error) => return (format!("error: {error}"), None),
     };
-    match report.save(file) {
-        Ok(()) => finished(&report),
-        Err(error) => format!("{}\nerror: {error}", finished(&report)),
+    let mut text = finished(&report, earlier);
+    let saved = report.save(file).and_then(|()| write_watched_pages(&report, file));
+    if let Err(error) = saved {
+        text += &format!("\nerror: {error}");
     }
+    (text, Some(report))
 }
 
 /// Clears the screen and shows a text; in a pipe, texts follow each other.
 fn show(text: &str, path: &Path) {
-    let mut out = std::io::stdout().lock();
+    let mut out = anstream::stdout().lock();
     let clear = if out.is_terminal() { "\x1b[2J\x1b[3J\x1b[H" } else { "" };
     // The reader may be gone.
     let _ = writeln!(out, "{clear}{} (Ctrl-C to stop)\n{text}", path.display());
@@ -104,7 +114,7 @@ fn show(text: &str, path: &Path) {
 }
 
 /// The text at the end of a grade.
-fn finished(report: &Report) -> String {
+fn finished(report: &Report, earlier: Option<&Report>) -> String {
     if let Some(failure) = &report.submission.build_failure {
         let lines: Vec<&str> = failure.messages.lines().collect();
         let more = lines.len().saturating_sub(MESSAGE_LINES);
@@ -115,42 +125,5 @@ fn finished(report: &Report) -> String {
         }
         return text;
     }
-    let points = &report.points;
-    format!(
-        "{}\n{} of {}, graded automatically ({:.1} s)",
-        table_of(&report.checks),
-        points.earned,
-        number_of_points(points.automatic_max),
-        report.cost.total
-    )
-}
-
-/// One row per task: how many checks passed, and the first that did not.
-fn table_of(checks: &[CheckResult]) -> Table {
-    let mut table = Table::new();
-    table.load_style(UTF8_HORIZONTAL_ONLY).set_content_arrangement(ContentArrangement::Dynamic).set_header([
-        "task",
-        "passed",
-        "first failure",
-    ]);
-    let mut tasks: Vec<&str> = checks.iter().map(|check| check.task.as_str()).collect();
-    // Checks arrive in the order in which they end.
-    tasks.sort_unstable();
-    tasks.dedup();
-    for task in tasks {
-        let run =
-            |check: &&CheckResult| check.task == task && !matches!(check.verdict, Verdict::Skipped { .. });
-        let of_task: Vec<&CheckResult> = checks.iter().filter(run).collect();
-        let wrong: Vec<&&CheckResult> = of_task.iter().filter(|check| check.costs_points()).collect();
-        let color = if wrong.is_empty() { Color::Green } else { Color::Red };
-        let first =
-            wrong.first().map_or(String::new(), |check| format!("{}: {}", check.id, explanation(check)));
-        let passed = format!("{} of {}", of_task.len() - wrong.len(), of_task.len());
-        table.add_row([
-            Cell::new(task),
-            Cell::new(passed).fg(color).set_alignment(CellAlignment::Right),
-            Cell::new(first),
-        ]);
-    }
-    table
+    summary_since(report, earlier)
 }

@@ -41,6 +41,10 @@ pub fn for_student(report: &Report, path: Option<&str>) -> (Report, Edition) {
     student.images.retain(|image| is_public(&image.scene));
     for task in &mut student.tasks {
         task.checks.retain(is_shown);
+        for step in &mut task.steps {
+            step.checks.retain(is_shown);
+        }
+        task.steps.retain(|step| !step.checks.is_empty());
         match &mut task.state {
             TaskState::Graded { missing } => missing.retain(is_shown),
             TaskState::RequiredCheckMissing(check) => *check = check.take().filter(is_shown),

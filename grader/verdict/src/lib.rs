@@ -8,6 +8,7 @@ pub mod check;
 pub mod convergence;
 pub mod edition;
 pub mod error;
+pub mod next;
 pub mod number;
 pub mod output;
 pub mod pictures;

@@ -52,7 +52,7 @@ pub struct ReplayedPath {
 /// A recorded call, with names of materials instead of surface indices.
 #[derive(Clone, Debug, Serialize)]
 pub struct RecordedCall {
-    /// Name of the function, such as `Scene::intersect`.
+    /// Name of the function, such as `Scene::intersect`; `prints` for a line that the submission prints.
     pub function: String,
     /// Arguments.
     pub given: Vec<NamedValue>,

@@ -70,6 +70,9 @@ pub struct SubmissionInfo {
     /// Irregularities that intake noted. They cost no points.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<IntakeFinding>,
+    /// Lines of its source that print, counted from 1. Printing costs no points.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub prints: Vec<usize>,
 }
 
 /// Total points.
@@ -107,8 +110,20 @@ pub struct TaskResult {
     pub staff_only: f64,
     /// Checks that decide about the points.
     pub checks: Vec<CheckId>,
+    /// The same checks in the order in which a student gets them to pass, by step; empty if the rubric names no steps.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub steps: Vec<Step>,
     /// How the points came about.
     pub state: TaskState,
+}
+
+/// A part of a task.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Step {
+    /// Name of the step.
+    pub title: String,
+    /// Its checks.
+    pub checks: Vec<CheckId>,
 }
 
 /// How the points of a task came about.

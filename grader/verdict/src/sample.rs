@@ -60,6 +60,7 @@ pub fn report(text: &str) -> Report {
         max,
         staff_only: 0.0,
         checks: if points.is_some() { vec![check.clone()] } else { Vec::new() },
+        steps: Vec::new(),
         state,
     };
     Report {
@@ -71,6 +72,7 @@ pub fn report(text: &str) -> Report {
             explanations: Vec::new(),
             refusal: None,
             notes: Vec::new(),
+            prints: Vec::new(),
         },
         assignment: text(),
         points: Points {

@@ -19,8 +19,8 @@ use crate::integrator::Technique;
 #[derive(Debug, Parser)]
 #[command(name = "arty", version, max_term_width = 100, after_help = SHORT_EXAMPLES, after_long_help = EXAMPLES)]
 pub(super) struct Args {
-    /// The scene file (YAML)
-    #[arg(value_name = "SCENE.yml")]
+    /// A scene file (YAML), or the name of a scene in scenes/
+    #[arg(value_name = "SCENE")]
     pub(super) scene: PathBuf,
 
     /// Rendering algorithm
@@ -61,8 +61,8 @@ pub(super) struct Args {
     #[arg(short, long, value_name = "SECONDS", value_parser = seconds, help_heading = IMAGE)]
     pub(super) time: Option<Duration>,
 
-    /// Output file, .png (for viewing) or .exr (linear data); repeatable [default: `<scene>.png` in the current
-    /// folder]
+    /// Output file, .png (for viewing) or .exr (linear data); repeatable [default: `<scene>-<technique>.png` in
+    /// the current folder]
     ///
     /// Existing files are replaced. An OpenEXR file contains the mean of each pixel, the variance of that mean (with two
     /// or more samples per pixel), and metadata on how the image was rendered.
@@ -134,8 +134,8 @@ const SHORT_EXAMPLES: &str =
 const EXAMPLES: &str = "\
 Examples:
   arty --algo=pt scenes/cornell_box_water.yml --width=512 --height=412
-      The image of the exercise sheet, as cornell_box_water.png in the current folder.
-  arty scenes/cornell_box.yml --technique=nee --max-bounces=1 --samples=10
+      The image of the exercise sheet, as cornell_box_water-mis.png in the current folder.
+  arty cornell_box --technique=nee --max-bounces=1 --samples=10
       Direct light only, to debug next event estimation.
   arty scenes/veach_mis.yml --time=10 -o bsdf.png -o bsdf.exr --technique=bsdf
       Render for ten seconds; save a PNG for viewing and an OpenEXR file with linear data.
@@ -249,7 +249,7 @@ mod tests {
     #[test]
     fn invalid_values_are_refused_with_the_expected_ones() {
         let cases = [
-            ("arty", "SCENE.yml"),
+            ("arty", "<SCENE>"),
             ("arty x.yml --algo=photon", "possible values: debug, pt"),
             ("arty x.yml --technique=all", "possible values: bsdf, nee, mis"),
             ("arty x.yml --width=0", "1..=65536"),

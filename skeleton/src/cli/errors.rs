@@ -46,7 +46,13 @@ impl Reference {
         let Some(path) = &args.reference else { return Ok(None) };
         let file = ExrFile::read(path)?;
         let refuse = |message: &str| Diagnostic::about(path, message);
-        let picture = file.layer("").ok_or_else(|| refuse("it has no layer with the channels R, G and B"))?;
+        let picture = file.layer("").ok_or_else(|| {
+            let names: Vec<&str> = file.channels.keys().map(String::as_str).collect();
+            refuse(&format!(
+                "it has no channels R, G and B, but {}; save the layer that you mean as R, G and B",
+                names.join(", ")
+            ))
+        })?;
         if picture.pixels().iter().any(|pixel| !pixel.is_finite()) {
             return Err(refuse("it contains NaN or infinite values"));
         }

@@ -2,7 +2,7 @@
 //!
 //! | module | contents |
 //! |---|---|
-//! | `args`, `original_options` | command-line arguments |
+//! | `args`, `original_options`, `scene_name` | command-line arguments |
 //! | `plan` | render settings, from the arguments and the scene's defaults |
 //! | `session`, `passes` | rendering in passes, until a limit is reached or an interruption |
 //! | `progress`, `live`, `messages`, `numbers`, `notes` | progress display and messages |
@@ -25,6 +25,7 @@ mod output;
 mod passes;
 mod plan;
 mod progress;
+mod scene_name;
 mod session;
 
 use std::process::ExitCode;
@@ -79,7 +80,7 @@ pub fn run(make: impl FnOnce(Algorithm) -> Box<dyn Integrator>) -> ExitCode {
         Ok(args) => args,
         Err(answer) => return exit::answer(&answer),
     };
-    match execute(&args, make) {
+    match execute(args, make) {
         Ok(exit) => exit.into(),
         Err(failure) => {
             messages::error(&failure);
@@ -88,7 +89,9 @@ pub fn run(make: impl FnOnce(Algorithm) -> Box<dyn Integrator>) -> ExitCode {
     }
 }
 
-fn execute(args: &Args, make: impl FnOnce(Algorithm) -> Box<dyn Integrator>) -> Result<Exit, Failure> {
+fn execute(mut args: Args, make: impl FnOnce(Algorithm) -> Box<dyn Integrator>) -> Result<Exit, Failure> {
+    args.scene = scene_name::resolve(&args.scene)?;
+    let args = &args;
     if args.view {
         return Err(Failure::window(std::env::args()));
     }
@@ -117,6 +120,7 @@ fn execute(args: &Args, make: impl FnOnce(Algorithm) -> Box<dyn Integrator>) -> 
         notes::before(&plan.algorithm, scene.features()).iter().for_each(messages::note);
         messages::plain(format_args!("rendering {}: {plan}", args.scene.display()));
     }
+    session::print_first_panic_only();
     let integrator = make(plan.algorithm);
     let mut progress = Progress::new(args.quiet);
     let mut live = Live::open(args.tev.as_deref(), provenance.title(), &plan);
@@ -131,7 +135,9 @@ fn execute(args: &Args, make: impl FnOnce(Algorithm) -> Box<dyn Integrator>) -> 
     let rendering = rendering?;
     live.finish(&rendering.film);
 
-    notes::anomalies(rendering.film.anomalies()).iter().for_each(messages::warning);
+    let anomalies = rendering.film.anomalies();
+    notes::anomalies(anomalies).iter().for_each(messages::warning);
+    notes::replay(anomalies, &args.scene, &plan).iter().for_each(messages::plain);
     if !args.quiet {
         notes::after(&plan.algorithm, scene.features(), &rendering).iter().for_each(messages::note);
         messages::plain(&rendering);

@@ -1,7 +1,10 @@
 //! Notes and warnings about an image.
 
+use std::path::Path;
+
 use super::Algorithm;
 use super::numbers::counted;
+use super::plan::Plan;
 use super::session::Rendering;
 use crate::film::Anomalies;
 use crate::integrator::{Settings, Technique};
@@ -55,6 +58,23 @@ pub(super) fn anomalies(anomalies: &Anomalies) -> Option<String> {
         first.sample,
         first.x,
         first.y
+    ))
+}
+
+/// The command that follows the path of the first such sample, where there is one: scenes are replayed by name.
+pub(super) fn replay(anomalies: &Anomalies, scene: &Path, plan: &Plan) -> Option<String> {
+    let first = anomalies.first.first()?;
+    let Algorithm::PathTracer(Settings { technique, max_bounces }) = plan.algorithm else { return None };
+    let name = scene.file_stem()?.to_str()?;
+    let folder = scene.parent()?.file_name()?;
+    if folder != "scenes" && folder != "extreme" {
+        return None;
+    }
+    let Plan { width, height, seed, .. } = plan;
+    Some(format!(
+        "replay: cargo grader replay --scene={name} --technique={technique} --max-bounces={max_bounces} --seed={seed} \
+         --size={width}x{height} --pixel={},{} --sample={}",
+        first.x, first.y, first.sample
     ))
 }
 

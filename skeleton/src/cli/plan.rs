@@ -1,7 +1,7 @@
 //! Render settings: the command line, completed by the defaults of the scene.
 
 use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::args::{Algo, Args};
 use super::exit::Failure;
@@ -52,7 +52,7 @@ impl Plan {
         }
         let samples = args.samples.or(args.time.is_none().then_some(DEFAULT_SAMPLES));
         let outputs = match args.output.is_empty() {
-            true => vec![Output::png(default_output(&args.scene))],
+            true => vec![Output::png(default_output(args))],
             false => args.output.clone(),
         };
         Ok(Self {
@@ -102,11 +102,15 @@ pub(super) fn max_bounces(args: &Args, defaults: Defaults) -> u32 {
     args.max_bounces.or(defaults.max_bounces).unwrap_or(DEFAULT_MAX_BOUNCES)
 }
 
-/// The default output of a scene, in the current folder.
-fn default_output(scene: &Path) -> PathBuf {
-    let mut name = scene.file_stem().unwrap_or("image".as_ref()).to_owned();
+/// The default output, in the current folder: `<scene>-<technique>.png`, so that techniques can be compared.
+fn default_output(args: &Args) -> PathBuf {
+    let mut name = args.scene.file_stem().unwrap_or("image".as_ref()).to_owned();
+    let what = match args.algo {
+        Algo::Debug => args.show.unwrap_or(DebugView::Normals).name().to_owned(),
+        Algo::Pt => args.technique.to_string(),
+    };
     // `with_extension` would cut off a stem with dots.
-    name.push(".png");
+    name.push(format!("-{what}.png"));
     name.into()
 }
 
@@ -131,6 +135,8 @@ impl fmt::Display for Plan {
 #[cfg(test)]
 mod tests {
     use std::time::Duration;
+
+    use std::path::Path;
 
     use super::*;
     use crate::integrator::Technique;
@@ -157,7 +163,7 @@ mod tests {
         assert_eq!(settings(&plan), Settings { technique: Technique::Mis, max_bounces: 8 });
         assert_eq!((plan.seed, plan.threads, plan.exposure), (0, None, 0.0));
         assert_eq!(plan.outputs.len(), 1);
-        assert_eq!(plan.outputs[0].path(), Path::new("box.v2.png"));
+        assert_eq!(plan.outputs[0].path(), Path::new("box.v2-mis.png"));
     }
 
     #[test]

@@ -25,6 +25,17 @@ pub(super) struct Rendering {
     pub(super) interrupted: bool,
 }
 
+/// From here on, only the first panic of this process is printed: the same line often panics once per pixel.
+pub(super) fn print_first_panic_only() {
+    static IS_PRINTED: AtomicBool = AtomicBool::new(false);
+    let usual = panic::take_hook();
+    panic::set_hook(Box::new(move |info| {
+        if !IS_PRINTED.swap(true, Ordering::Relaxed) {
+            usual(info);
+        }
+    }));
+}
+
 /// Renders a scene. After each pass, `watch` is called with the film and the state.
 ///
 /// # Errors

@@ -26,7 +26,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub use count::{Counts, take_counts};
 pub(crate) use count::{count_light_sample, count_ray, count_shadow_ray};
 pub(crate) use record::record;
-pub use record::{Call, Recording, Value, start_recording, take_recording};
+pub use record::{Call, Recording, Value, record_print, start_recording, take_recording};
 pub use script::{ScriptedBsdf, ScriptedLight};
 pub(crate) use strata::stratified;
 pub use strata::{Strata, set_strata};

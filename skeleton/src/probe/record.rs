@@ -2,6 +2,7 @@
 //!
 //! Recording is off until [`start_recording`] enables it for the current thread.
 
+use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
 
 use super::Key;
@@ -24,9 +25,9 @@ pub struct Call {
 /// A named value of a [`Call`]: a number, a vector, a colour, or a boolean as 0 or 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Value {
-    /// The name of the argument or result.
-    pub name: &'static str,
-    /// The components.
+    /// The name of the argument or result, or the line that is printed.
+    pub name: Cow<'static, str>,
+    /// The components; none for a line that is printed.
     pub numbers: Vec<f32>,
 }
 
@@ -65,6 +66,15 @@ pub(crate) fn record(call: impl FnOnce() -> Call) {
     }
 }
 
+/// Records a line that the integrator prints, if recording is enabled. Otherwise the line is not even formatted.
+#[inline]
+pub fn record_print(line: std::fmt::Arguments<'_>) {
+    record(|| {
+        let line = Value { name: Cow::Owned(line.to_string()), numbers: Vec::new() };
+        Call { function: "prints", given: Vec::new(), got: vec![line] }
+    });
+}
+
 #[cold]
 fn keep(call: Call) {
     CALLS.with_borrow_mut(|recording| {
@@ -84,13 +94,13 @@ impl Call {
 
     /// Adds an argument.
     pub(crate) fn given(mut self, name: &'static str, value: impl Numbers) -> Self {
-        self.given.push(Value { name, numbers: value.numbers() });
+        self.given.push(Value { name: Cow::Borrowed(name), numbers: value.numbers() });
         self
     }
 
     /// Adds a result.
     pub(crate) fn got(mut self, name: &'static str, value: impl Numbers) -> Self {
-        self.got.push(Value { name, numbers: value.numbers() });
+        self.got.push(Value { name: Cow::Borrowed(name), numbers: value.numbers() });
         self
     }
 }

@@ -11,8 +11,8 @@
 //! of the last bounce, in `LastBounce`.
 //!
 //! This file is your submission. You may change it as you like, add functions and types, and use `std` and
-//! `arty::prelude`, as long as it defines `PathTracer` with `new` and `radiance` as below. `cargo doc -p arty --open`
-//! shows the documentation of the prelude.
+//! `arty::prelude`, as long as it defines `PathTracer` with `new` and `radiance` as below. `cargo api` shows the
+//! documentation of the prelude.
 
 use arty::prelude::*;
 

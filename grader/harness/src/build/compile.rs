@@ -322,9 +322,20 @@ fn call(framework: &Framework, folder: &Path) -> Command {
 struct Message {
     rendered: Option<String>,
     level: String,
+    code: Option<Code>,
     #[serde(default)]
     spans: Vec<Span>,
 }
+
+/// rustc's code of an error, such as `E0432`.
+#[derive(Deserialize)]
+struct Code {
+    code: String,
+}
+
+/// Codes of errors about names that cannot be resolved: an import, or the beginning of a path. rustc's own advice, to add
+/// a crate, is of no use here.
+const UNRESOLVED: [&str; 2] = ["E0432", "E0433"];
 
 #[derive(Deserialize)]
 struct Span {
@@ -334,12 +345,12 @@ struct Span {
 }
 
 fn build_failure(stderr: &str, status: &str) -> BuildFailure {
-    let mut messages = String::new();
-    let mut line = None;
+    let (mut messages, mut line, mut is_unresolved) = (String::new(), None, false);
     for text in stderr.lines() {
         match serde_json::from_str::<Message>(text) {
             Ok(message) if message.level == "error" => {
                 messages.push_str(message.rendered.as_deref().unwrap_or_default());
+                is_unresolved |= message.code.is_some_and(|code| UNRESOLVED.contains(&code.code.as_str()));
                 let own = |span: &&Span| span.is_primary && span.file_name == "render_pt.rs";
                 line = line.or(message.spans.iter().find(own).map(|span| span.line_start));
             }
@@ -352,6 +363,11 @@ fn build_failure(stderr: &str, status: &str) -> BuildFailure {
     }
     if messages.is_empty() {
         messages = format!("rustc ended with {status} and said nothing\n");
+    }
+    if is_unresolved {
+        messages.push_str(
+            "note: a submission may use `std` and `arty::prelude` only: no other crate can be added\n",
+        );
     }
     BuildFailure { messages: clean(&messages), line }
 }

@@ -17,7 +17,7 @@ use crate::statistics::sequential::{LOOKS, SCREENING_LEVEL};
 use harness::build::{Framework, SubmissionProgram, compile};
 use harness::host_process::HostProcess;
 use harness::sandbox::{Limits, Machine};
-use harness::scan::scan;
+use harness::scan::{self, scan};
 use harness::trial;
 use harness::workspace::Workspace;
 use verdict::check::{CheckResult, Numerics};
@@ -229,6 +229,7 @@ impl Grader {
                 explanations: Vec::new(),
                 refusal: refusal.cloned(),
                 notes: Vec::new(),
+                prints: scan::prints(&submission.source),
             },
             assignment: self.rubric.assignment.clone(),
             points: self.sum(&tasks),

@@ -22,6 +22,7 @@ pub(super) fn score(
         max: task.points,
         staff_only: 0.0,
         checks: task.checks.iter().map(CheckSpec::id).collect(),
+        steps: task.steps(),
         state,
     };
     if task.manual {

@@ -11,6 +11,7 @@ use verdict::error::{Error, Result};
 const INCLUDED: [&str; 19] = [
     ".gitattributes",
     ".gitignore",
+    ".vscode",
     "LICENSE-APACHE",
     "LICENSE-MIT",
     "rustfmt.toml",

@@ -40,6 +40,16 @@ pub fn write_pages(report: &Report, pictures: &[Picture], file: &Path, readers: 
     Ok(())
 }
 
+/// Writes the student's page of a report that will be replaced on the next save: without pictures, and it reloads itself.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_watched_pages(report: &Report, file: &Path) -> Result<()> {
+    let (student, edition) = for_student(report, None);
+    let [for_students, _] = pages_beside(file);
+    output::write_bytes(&for_students, super::watched_page(&student, edition))
+}
+
 /// The most bytes of a page: it is sent by mail, and kept for everybody.
 const LARGEST: usize = 3_000_000;
 

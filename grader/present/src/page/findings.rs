@@ -36,7 +36,7 @@ fn advice(task: &TaskResult, report: &Report) -> Markup {
     html! {
         (prose(&words::explanation(wrong))) "."
         @if wrong.verdict == Verdict::Inconclusive { " Reduce the noise first. Re-run: " } @else { " Fix this first. Re-run: " }
-        code { (words::repeat_command(report, &wrong.id)) }
+        code.command { (words::repeat_command(report, &wrong.id)) }
     }
 }
 
@@ -129,8 +129,8 @@ fn row(report: &Report, check: &CheckResult) -> Markup {
                     @if check.reason == Reason::Bias && test.is_some() {
                         p.soft { "The result was confirmed with independent random numbers." }
                     }
-                    code { (words::repeat_command(report, &check.id)) }
-                    @if let Some(replay) = words::replay_of(check, &report.submission.path) { br; code { (replay) } }
+                    code.command { (words::repeat_command(report, &check.id)) }
+                    @if let Some(replay) = words::replay_of(check, &report.submission.path) { br; code.command { (replay) } }
                 }
             }
             (number("error", effect.map(percent)))

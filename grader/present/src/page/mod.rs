@@ -7,11 +7,12 @@ mod causes;
 pub mod document;
 mod files;
 mod findings;
+mod next;
 pub mod plots;
 mod prose;
 mod viewer;
 
-pub use files::{Readers, pages_beside, pictures_beside, remove_pages, write_pages};
+pub use files::{Readers, pages_beside, pictures_beside, remove_pages, write_pages, write_watched_pages};
 
 use maud::{Markup, PreEscaped, html};
 
@@ -26,45 +27,71 @@ use verdict::report::Report;
 
 const SCRIPT: &str = include_str!("viewer.js");
 
+/// The script of a page that is written again on every save: it loads itself anew.
+const RELOAD: &str = include_str!("reload.js");
+
 /// The page of a report, as HTML. A student's page is made of the report that [`for_student`](verdict::edition::for_student) gives.
 pub fn page(report: &Report, pictures: &[Picture], edition: Edition) -> String {
+    page_with(report, pictures, edition, SCRIPT)
+}
+
+/// The page of a report that will be replaced on the next save.
+fn watched_page(report: &Report, edition: Edition) -> String {
+    page_with(report, &[], edition, &format!("{SCRIPT}{RELOAD}"))
+}
+
+fn page_with(report: &Report, pictures: &[Picture], edition: Edition, script: &str) -> String {
     let points = &report.points;
     let body = html! {
         header {
-            h1 { (report.submission.path) }
-            p.soft { "assignment " (report.assignment) @if edition == Edition::Tutor { " · tutor's edition" } }
+            h1 { "Assignment " (report.assignment) }
+            p.soft { (report.submission.path) @if edition == Edition::Tutor { " · tutor's edition" } }
             @let rest = words::not_covered(points);
             p.sum { (points.earned) " of " (words::number_of_points(points.automatic_max)) " "
                 small { "graded automatically" @if !rest.is_empty() { "; " (rest) } } }
         }
         main {
-            (findings::tasks(report))
             @if let Some(failure) = &report.submission.build_failure {
                 h2 { "The submission does not compile" }
                 pre tabindex="0" { (failure.messages) }
             }
-            (causes::section(report))
-            (findings::explanations(report))
-            (findings::checks(report, edition))
+            (next::section(report))
+            (findings::tasks(report))
             @let is_public = |picture: &&Picture| Visibility::of_scene(&picture.scene) == Visibility::Public;
             @let shown = pictures.iter().filter(|picture| edition == Edition::Tutor || is_public(picture));
             (viewer::section(report, &shown.collect::<Vec<_>>()))
-            (convergence(report))
+            (causes::section(report))
+            (findings::explanations(report))
+            (findings::checks(report, edition))
             (weights(report))
             (furnaces(report))
-            (p_values(report))
+            (statistics(report, edition))
             (findings::skipped(report))
             (findings::provenance(report))
         }
     };
-    let title = format!("{}: {} of {}", report.submission.path, points.earned, points.automatic_max);
-    format!("{}{}{}", document::begin(&title, SCRIPT), body.into_string(), document::end(SCRIPT))
+    let title = format!("{}: {} of {}", report.assignment, points.earned, points.automatic_max);
+    format!("{}{}{}", document::begin(&title, script), body.into_string(), document::end(script))
+}
+
+/// What changes no points: error against run time, and for tutors whether the differences of tiles look like noise.
+fn statistics(report: &Report, edition: Edition) -> Markup {
+    let parts = [Some(convergence(report)), (edition == Edition::Tutor).then(|| p_values(report))];
+    let parts: Vec<String> =
+        parts.into_iter().flatten().map(Markup::into_string).filter(|part| !part.is_empty()).collect();
+    html! {
+        @if !parts.is_empty() {
+            h2 { "Statistics" }
+            details { summary { "error against run time" @if parts.len() > 1 { ", bias and noise" } }
+                @for part in parts { (PreEscaped(part)) } }
+        }
+    }
 }
 
 fn convergence(report: &Report) -> Markup {
     let Some(convergence) = &report.convergence else { return html! {} };
     html! {
-        h2 { "Error against run time" }
+        h3 { "Error against run time" }
         p.soft { "This changes no points. The error of an unbiased program falls with slope −1; a curve that flattens indicates a bias \
             (dashed line). Bars are 95 % confidence intervals." }
         @if let Some(plot) = svg(convergence) { div.scroll { (PreEscaped(plot)) } }
@@ -140,7 +167,7 @@ fn p_values(report: &Report) -> Markup {
         .collect();
     html! {
         @if !plots.is_empty() {
-            h2 { "Bias or noise?" }
+            h3 { "Bias or noise?" }
             p { "Images are compared with the reference tile by tile. The p-value of a tile is the probability that noise alone causes a \
                 difference at least this large." }
             div.plots {

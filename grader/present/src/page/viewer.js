@@ -91,7 +91,9 @@ const bringToLife = (figure) => {
     corner = [clamp(corner[0], 0, width - shown[0]), clamp(corner[1], 0, height - shown[1])];
     // The wipe is a place in what is shown: it can be moved where one looks.
     const share = +control("wipe").value / 100, edge = share === 1 ? width : corner[0] + share * shown[0];
-    paint(small.getContext("2d"), (i) => colorOf(technique, i % width >= edge ? "reference" : mode, i, scale, curve));
+    const against = control("against").value, isReference = against === "reference";
+    const beyond = (i) => colorOf(isReference ? technique : against, isReference ? "reference" : mode, i, scale, curve);
+    paint(small.getContext("2d"), (i) => (i % width >= edge ? beyond(i) : colorOf(technique, mode, i, scale, curve)));
     context.imageSmoothingEnabled = false;
     context.drawImage(small, corner[0], corner[1], shown[0], shown[1], 0, 0, canvas.width, canvas.height);
     const pixel = size * factor;
@@ -120,7 +122,7 @@ const bringToLife = (figure) => {
     figure.querySelector(".replay").textContent =
       `${figure.dataset.replay} --technique=${technique} --pixel=${x},${y} --sample=${number0 % samples} --seed=${seeds[Math.floor(number0 / samples)]}`;
   };
-  const draw = () => { drawView(); read(); };
+  const draw = () => { drawView(); read(); zoomed = zoom(); };
   const zoomBy = (steps, [x, y]) => {
     const before = zoom();
     control("zoom").value = +control("zoom").value + steps;
@@ -163,7 +165,20 @@ const bringToLife = (figure) => {
   }, { passive: false });
 
   const nudge = (name, steps) => { control(name).value = +control(name).value + steps; changed(name); };
-  const changed = (name) => { if (name === "exposure" || name === "curve") drawStrip(); draw(); };
+  const keepInSight = () => {
+    const shown = [width / zoom(), height / zoom()];
+    corner = corner.map((low, axis) => clamp(low, place[axis] + 1 - shown[axis], place[axis]));
+  };
+  let zoomed = 1;
+  const changed = (name) => {
+    if (name === "exposure" || name === "curve") drawStrip();
+    // The slider zooms around the pixel that is read, which stays where it is as far as possible.
+    if (name === "zoom") {
+      corner = corner.map((low, axis) => place[axis] + 0.5 - ((place[axis] + 0.5 - low) * zoomed) / zoom());
+      keepInSight();
+    }
+    draw();
+  };
   let flippedFrom = "submission";
   const keys = {
     f: () => {
@@ -176,7 +191,7 @@ const bringToLife = (figure) => {
     "[": () => nudge("wipe", -5), "]": () => nudge("wipe", 5),
     0: () => {
       for (const name of ["exposure", "wipe", "zoom"]) control(name).value = control(name).defaultValue;
-      control("curve").selectedIndex = 0;
+      for (const name of ["curve", "against"]) control(name).selectedIndex = 0;
       radio("mode", "submission").checked = true;
       held = false;
       changed("exposure");
@@ -190,9 +205,7 @@ const bringToLife = (figure) => {
     if (step) {
       const many = event.shiftKey ? 10 : 1;
       place = [clamp(place[0] + many * step[0], 0, width - 1), clamp(place[1] + many * step[1], 0, height - 1)];
-      // The pixel that is read stays in sight.
-      const shown = [width / zoom(), height / zoom()];
-      corner = corner.map((low, axis) => clamp(low, place[axis] + 1 - shown[axis], place[axis]));
+      keepInSight();
     } else if (technique) technique.checked = true;
     else if (mode) radio("mode", mode).checked = true;
     else if (keys[event.key]) keys[event.key]();
@@ -206,6 +219,18 @@ const bringToLife = (figure) => {
 };
 
 for (const figure of document.querySelectorAll("figure.pictures")) bringToLife(figure);
+// Where the clipboard is closed to the page, the command is selected instead.
+for (const command of document.querySelectorAll(".command")) {
+  const button = document.createElement("button");
+  button.type = "button"; button.className = "copy"; button.textContent = "copy"; button.ariaLabel = "copy this command";
+  button.addEventListener("click", () => {
+    const select = () => { getSelection().selectAllChildren(command); };
+    const said = (text) => { button.textContent = text; setTimeout(() => { button.textContent = "copy"; }, 1500); };
+    if (!navigator.clipboard) { select(); return; }
+    navigator.clipboard.writeText(command.textContent.trim()).then(() => said("copied"), select);
+  });
+  command.after(" ", button);
+}
 // On paper nothing can be unfolded; afterwards everything is folded as before.
 let unfolded = [];
 addEventListener("beforeprint", () => {

@@ -27,7 +27,7 @@ const KEYS: [(&str, &str); 8] = [
     ("f", "toggle between this picture and the reference"),
     ("+ −", "zoom; also Ctrl + wheel, or a double click"),
     ("e d", "exposure up, down"),
-    ("[ ]", "wipe"),
+    ("[ ]", "wipe, to the reference or another technique"),
     ("0", "reset"),
 ];
 
@@ -80,7 +80,11 @@ fn figure(index: usize, picture: &Picture, report: &Report) -> Markup {
                             input type="radio" name={ "mode" (index) } value=(value) checked[value == "submission"]; " " (text)
                         } } }
                         p { label { "exposure " input type="range" name="exposure" min="-6" max="8" step="0.25" value="0"; } " " output name="stops" { "0" } }
-                        p { label { "wipe to the reference " input type="range" name="wipe" min="0" max="100" value="100"; } }
+                        p { label { "wipe " input type="range" name="wipe" min="0" max="100" value="100"; } " "
+                            label { "to " select name="against" {
+                                option value="reference" { "reference" }
+                                @for rendered in &picture.rendered { option value=(rendered.technique) { (rendered.technique) } }
+                            } } }
                         p { label { "zoom " input type="range" name="zoom" min="0" max="5" step="0.5" value="0"; } }
                         p { label { "tone map " select name="curve" {
                             option value="clip" { "sRGB, clipped" } option value="aces" { "ACES" } option value="reinhard" { "Reinhard" }
@@ -90,7 +94,7 @@ fn figure(index: usize, picture: &Picture, report: &Report) -> Markup {
                     }
                     pre.probe aria-live="polite" {}
                     p.soft.again { label { "Replay sample " input type="number" name="sample" min="1" max=(count) value="1"; } " of this pixel:" }
-                    pre.replay tabindex="0" {}
+                    pre.replay.command tabindex="0" {}
                 }
             }
             (plane("reference", "", half_floats(&picture.reference)))

@@ -30,6 +30,10 @@ pub struct CheckSpec {
     /// Relative error of the whole image's mean that a pass excludes.
     #[serde(default = "two_percent")]
     pub tolerance: f64,
+    /// Name of the step of the task that begins with this check; `None` if the check belongs to the step of the one
+    /// before it. Steps change no points.
+    #[serde(default)]
+    pub step: Option<String>,
     #[serde(default, rename = "evidence", deserialize_with = "renamed_to_required")]
     _evidence: (),
     #[serde(default, rename = "hits", deserialize_with = "renamed_to_emission_on_hit")]
@@ -92,6 +96,7 @@ impl CheckSpec {
             weight: one(),
             required: false,
             tolerance: two_percent(),
+            step: None,
             _evidence: (),
             _hits: (),
         }

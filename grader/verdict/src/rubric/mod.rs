@@ -7,6 +7,7 @@ use arty::integrator::Technique;
 use serde::Deserialize;
 
 use crate::error::{Error, Result};
+use crate::report::Step;
 
 mod check;
 mod rules;
@@ -48,6 +49,27 @@ pub struct Task {
     /// The checks. Each carries an equal share of the points, multiplied by its `weight`.
     #[serde(default)]
     pub checks: Vec<CheckSpec>,
+}
+
+impl Task {
+    /// The steps, each with its checks. Checks before the first step belong to none; a step that is named again goes on.
+    pub fn steps(&self) -> Vec<Step> {
+        let mut steps: Vec<Step> = Vec::new();
+        let mut current = None;
+        for check in &self.checks {
+            if let Some(title) = &check.step {
+                let known = steps.iter().position(|step| step.title == *title);
+                current = Some(known.unwrap_or(steps.len()));
+                if known.is_none() {
+                    steps.push(Step { title: title.clone(), checks: Vec::new() });
+                }
+            }
+            if let Some(step) = current.and_then(|index| steps.get_mut(index)) {
+                step.checks.push(check.id());
+            }
+        }
+        steps
+    }
 }
 
 impl Rubric {
@@ -117,6 +139,7 @@ impl Rubric {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::check::CheckKind;
 
     fn load(text: &str) -> std::result::Result<Rubric, String> {
         let folder = tempfile::tempdir().expect("a temporary folder");
@@ -154,5 +177,26 @@ mod tests {
             assert!(message.contains(expected), "{message}");
         }
         assert!(load(&task(&format!("checks: [{CHECK}, required: true}}]"))).is_ok());
+    }
+
+    #[test]
+    fn a_step_begins_with_the_check_that_names_it() {
+        let mut task = Task {
+            id: "x".to_owned(),
+            title: "t".to_owned(),
+            points: 1.0,
+            manual: false,
+            requires: Vec::new(),
+            checks: (1..=5)
+                .map(|bounces| CheckSpec::new(CheckKind::LightPick, Technique::Nee, bounces))
+                .collect(),
+        };
+        assert!(task.steps().is_empty());
+        for (check, step) in [(1, "one"), (2, "two"), (4, "one")] {
+            task.checks[check].step = Some(step.to_owned());
+        }
+        let bounces = |step: &Step| step.checks.iter().map(|id| id.max_bounces).collect::<Vec<_>>();
+        let steps: Vec<_> = task.steps().iter().map(|step| (step.title.clone(), bounces(step))).collect();
+        assert_eq!(steps, [("one".to_owned(), vec![2, 5]), ("two".to_owned(), vec![3, 4])]);
     }
 }

@@ -52,7 +52,11 @@ pub(super) fn decode(file: impl Read + Seek, length: u64) -> Result<ExrFile, Str
     }
     let reader = ::exr::block::read(file, true).map_err(explain)?;
     let [header] = reader.headers() else {
-        return Err("it has several parts; save it with all layers in a single part".to_owned());
+        let name =
+            |header: &Header| header.own_attributes.layer_name.as_ref().map(|name| lossy(name.as_slice()));
+        let names: Vec<String> = reader.headers().iter().filter_map(name).collect();
+        let names = if names.is_empty() { String::new() } else { format!(" ({})", names.join(", ")) };
+        return Err(format!("it has several parts{names}; save the one that you mean in a file of its own"));
     };
     check(header, length)?;
 
@@ -102,6 +106,19 @@ fn check(header: &Header, length: u64) -> Result<(), String> {
     if pixel_bytes > MAX_COMPRESSION_RATIO * u128::from(length) {
         return Err(format!(
             "its header claims {width} x {height} pixels in {count} channels, too many for {length} bytes"
+        ));
+    }
+    let (data, display) = (header.own_attributes.layer_position, header.shared_attributes.display_window);
+    if (data, header.layer_size) != (display.position, display.size) {
+        return Err(format!(
+            "it is cropped: its data window, {width} x {height} pixels at ({}, {}), is not its display window, {} x {} at ({}, {}); \
+             save the whole image",
+            data.x(),
+            data.y(),
+            display.size.width(),
+            display.size.height(),
+            display.position.x(),
+            display.position.y()
         ));
     }
     Ok(())

@@ -231,6 +231,23 @@ fn scan_lines_of_other_programs_are_read() {
 }
 
 #[test]
+fn a_cropped_image_is_refused() {
+    let channel = AnyChannel::new("R", FlatSamples::F32(vec![1.0; 6]));
+    let layer = ::exr::prelude::Layer::new(
+        Vec2(3, 2),
+        LayerAttributes::default().with_position(Vec2(1, 0)),
+        Encoding::UNCOMPRESSED,
+        AnyChannels::sort([channel].into_iter().collect()),
+    );
+    let mut image = ::exr::prelude::Image::from_layer(layer);
+    image.attributes.display_window = ::exr::prelude::IntegerBounds::new(Vec2(0, 0), Vec2(8, 4));
+    let mut bytes = Cursor::new(Vec::new());
+    image.write().to_buffered(&mut bytes).expect("writing works");
+    let error = decoded(&bytes.into_inner()).expect_err("it is cropped");
+    assert!(error.contains("3 x 2 pixels at (1, 0)") && error.contains("8 x 4 at (0, 0)"), "{error}");
+}
+
+#[test]
 fn unsupported_formats_are_errors() {
     let tiled = foreign_file(Compression::ZIP16, Blocks::Tiles(Vec2(2, 2)), LineOrder::Increasing);
     assert_eq!(decoded(&tiled), Err("it is tiled or deep; save it as scan lines".to_owned()));

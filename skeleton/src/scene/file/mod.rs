@@ -113,6 +113,9 @@ pub fn load(path: &Path) -> Result<Loaded, Diagnostic> {
     // A scene may use the same file thousands of times, so its line is looked up once.
     let mut lines = HashMap::new();
     for mesh in &scene.meshes {
+        if mesh.file.contains(char::is_control) {
+            return Err(escaped(path, &mesh.file, &text));
+        }
         let file = relative_to(path, &mesh.file);
         let line = *lines.entry(&mesh.file).or_insert_with(|| line_that_names(&mesh.file, &text));
         let named = Reference { file: path.to_owned(), line };
@@ -129,6 +132,17 @@ pub fn load(path: &Path) -> Result<Loaded, Diagnostic> {
         defaults: scene.defaults,
     };
     Ok(Loaded { description, warnings: warnings.into_vec() })
+}
+
+/// The error for a name with a control character: in double quotes, `\t` of a Windows path is a tab.
+fn escaped(path: &Path, file: &str, text: &str) -> Diagnostic {
+    let may_name_it = |line: &str| line.contains('"') && line.contains('\\');
+    let line = text.lines().position(may_name_it).map(|index| index + 1);
+    let message = format!(
+        "the file name `{file}` contains a tab or another control character: in double quotes, `\\` begins an escape; \
+         write `/`, or use single quotes"
+    );
+    Diagnostic { file: path.to_owned(), line, message }
 }
 
 /// The line of a scene file that names `file`.

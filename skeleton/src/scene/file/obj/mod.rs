@@ -1,5 +1,6 @@
 //! OBJ files.
 
+mod concave;
 mod numbers;
 mod outline;
 
@@ -62,7 +63,7 @@ fn numbers_of(file: &Path, text: &str, outline: &Outline<'_>) -> Result<tobj::Me
     let (models, _) = tobj::load_obj_buf(&mut Parts::new(text, &outline.geometry), &options, no_materials)
         .map_err(|error| blame(format!("cannot be read: {error}")))?;
     // Names of objects and materials are not passed to `tobj`, so there is a single mesh.
-    let mesh = models.into_iter().next().map(|model| model.mesh).unwrap_or_default();
+    let mut mesh = models.into_iter().next().map(|model| model.mesh).unwrap_or_default();
     let finite = |values: &[f32]| values.iter().all(|value| value.is_finite());
     if !(finite(&mesh.positions) && finite(&mesh.texcoords) && finite(&mesh.normals)) {
         return Err(blame("contains numbers that are not finite".into()));
@@ -72,6 +73,7 @@ fn numbers_of(file: &Path, text: &str, outline: &Outline<'_>) -> Result<tobj::Me
     if mesh.indices.len() != corners || !complete(&mesh.texcoord_indices) || !complete(&mesh.normal_indices) {
         return Err(Diagnostic::about(file, "contains faces that cannot be triangulated"));
     }
+    concave::triangulate(&mut mesh, &outline.polygons);
     Ok(mesh)
 }
 

@@ -56,19 +56,16 @@ pub(super) fn check(statement: &Statement<'_>) -> Result<(), String> {
     Ok(())
 }
 
+/// True for a vertex with a colour: three more numbers.
+pub(super) fn has_colour(statement: &Statement<'_>) -> bool {
+    statement.keyword == "v" && statement.uncommented().split_ascii_whitespace().count() == 6
+}
+
 /// The first line with numbers that `tobj` cannot read.
 pub(super) fn first_wrong_line(file: &Path, text: &str) -> Option<Diagnostic> {
     let has_numbers = |statement: &Statement<'_>| matches!(statement.keyword, "v" | "vt" | "vn");
-    let wrong = statements(text).filter(has_numbers).find_map(|statement| {
+    statements(text).filter(has_numbers).find_map(|statement| {
         check(&statement).err().map(|message| Diagnostic::at(file, statement.line, message))
-    });
-    wrong.or_else(|| {
-        let has_colour =
-            |statement: &Statement<'_>| statement.uncommented().split_ascii_whitespace().count() == 6;
-        let mut vertices = statements(text).filter(|statement| statement.keyword == "v");
-        let first = has_colour(&vertices.next()?);
-        let other = vertices.find(|statement| has_colour(statement) != first)?;
-        Some(Diagnostic::at(file, other.line, "either all vertices or none must have a colour"))
     })
 }
 

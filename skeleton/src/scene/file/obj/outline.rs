@@ -22,6 +22,8 @@ pub(super) struct Outline<'a> {
     pub(super) runs: Vec<Run<'a>>,
     /// Number of triangles after triangulation.
     pub(super) triangles: usize,
+    /// Faces with more than three corners, in the order of the file.
+    pub(super) polygons: Vec<Polygon>,
     /// Lines and arguments of `mtllib`.
     pub(super) libraries: Vec<(usize, &'a str)>,
     /// Numbers of `v`, `vt` and `vn`.
@@ -41,6 +43,15 @@ pub(super) struct Run<'a> {
     pub(super) uvs: bool,
     /// True if they have normals.
     pub(super) normals: bool,
+}
+
+/// A face with more than three corners.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Polygon {
+    /// Index of its first triangle.
+    pub(super) first: usize,
+    /// Number of corners: two more than triangles.
+    pub(super) corners: usize,
 }
 
 struct ForwardIndex {
@@ -107,7 +118,11 @@ impl<'a> Outline<'a> {
             numbers::check(statement)?;
         }
         self.counts[kind] += 1;
-        self.push_geometry(statement);
+        // Colours change nothing, and `tobj` refuses files where only some vertices have them.
+        match numbers::has_colour(statement).then(|| end_of_word(statement.text, 4)).flatten() {
+            Some(end) => self.push_part(statement, end),
+            None => self.push_geometry(statement),
+        }
         Ok(())
     }
 
@@ -132,6 +147,9 @@ impl<'a> Outline<'a> {
         match self.runs.last() {
             Some(last) if last.continues_with(&run) => {}
             _ => self.runs.push(run),
+        }
+        if corners > 3 {
+            self.polygons.push(Polygon { first: self.triangles, corners });
         }
         self.triangles += corners - 2;
         self.push_geometry(statement);
@@ -173,17 +191,39 @@ impl<'a> Outline<'a> {
     /// Passes a statement to `tobj`, without its comment.
     fn push_geometry(&mut self, statement: &Statement<'a>) {
         let Statement { start, text, .. } = *statement;
-        let end = start + text.len();
         match text.find('#') {
-            Some(comment) => {
-                self.geometry.extend([start..start + comment, end - usize::from(text.ends_with('\n'))..end])
-            }
+            Some(comment) => self.push_part(statement, comment),
             None => match self.geometry.last_mut() {
-                Some(last) if last.end == start => last.end = end,
-                _ => self.geometry.push(start..end),
+                Some(last) if last.end == start => last.end = start + text.len(),
+                _ => self.geometry.push(start..start + text.len()),
             },
         }
     }
+
+    /// Passes the first `length` bytes of a statement to `tobj`, and the end of its line.
+    fn push_part(&mut self, statement: &Statement<'a>, length: usize) {
+        let Statement { start, text, .. } = *statement;
+        let end = start + text.len();
+        self.geometry.extend([start..start + length, end - usize::from(text.ends_with('\n'))..end]);
+    }
+}
+
+/// Where the word with this number, counted from 1, ends in a line; `None` if no other one follows it.
+fn end_of_word(line: &str, number: usize) -> Option<usize> {
+    let (mut words, mut end, mut is_inside) = (0, 0, false);
+    for (index, byte) in line.bytes().enumerate() {
+        let is_space = byte.is_ascii_whitespace();
+        if !is_space && !is_inside {
+            words += 1;
+            if words > number {
+                return Some(end);
+            }
+        } else if is_space && is_inside && words == number {
+            end = index;
+        }
+        is_inside = !is_space;
+    }
+    None
 }
 
 impl Run<'_> {
