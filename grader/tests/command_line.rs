@@ -129,12 +129,47 @@ fn a_checkout_without_the_solution_shows_only_commands_for_students() {
     }
     std::fs::write(folder.path().join("skeleton/Cargo.toml"), "").expect("it can be written");
     let student = help(folder.path(), &["--help"]);
-    for command in ["class", "mark"] {
+    for command in ["class", "mark", "plan", "export", "converge"] {
         assert!(staff.contains(&format!("\n  {command} ")), "{staff}");
         assert!(!student.contains(&format!("\n  {command} ")), "{student}");
     }
-    assert!(student.contains("\n  grade ") && student.contains("\n  replay "), "{student}");
+    for command in ["grade", "hint", "replay", "pack"] {
+        assert!(student.contains(&format!("\n  {command} ")), "{student}");
+    }
     assert!(!help(folder.path(), &["grade", "--help"]).contains("--missing-is-zero"));
+}
+
+#[test]
+fn a_program_that_prints_is_graded_as_fast_and_says_so() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let source = std::fs::read_to_string(student_file()).expect("it is there");
+    let given = "for bounce in 0..=self.settings.max_bounces {";
+    let noisy = source.replacen(given, &format!("{given} println!(\"{{bounce}}\"); dbg!(bounce, 1.5);"), 1);
+    assert_ne!(noisy, source);
+    std::fs::write(folder.path().join("render_pt.rs"), noisy).expect("it can be written");
+    let graded = grader(folder.path(), &["grade", "render_pt.rs", "--only=5.1"]);
+    assert_eq!(graded.status.code(), Some(0), "{}", stderr(&graded));
+    let said = String::from_utf8_lossy(&graded.stdout).into_owned();
+    assert!(said.contains("your program prints (render_pt.rs:"), "{said}");
+    let report = Report::load(&folder.path().join("report/report.json")).expect("there is a report");
+    assert!(report.checks.len() > 20, "5.1 is 5.1a and 5.1b: {}", report.checks.len());
+    let late = report.checks.iter().filter(|check| check.reason == verdict::check::Reason::Timeout).count();
+    assert_eq!(late, 0, "printing costs no time");
+    let replay = ["replay", "render_pt.rs", "--scene=cornell_box", "--pixel=1,1", "--sample=0"];
+    let replayed = String::from_utf8_lossy(&grader(folder.path(), &replay).stdout).into_owned();
+    assert!(replayed.contains("prints") && replayed.contains("bounce = 0"), "{replayed}");
+
+    // The next step, then more about it, level by level.
+    let hint =
+        |level: &str| String::from_utf8_lossy(&grader(folder.path(), &["hint", level]).stdout).into_owned();
+    assert!(hint("1").contains("Next: 5.1a") && hint("1").contains("cargo hint 2"), "{}", hint("1"));
+    assert!(hint("2").contains("hint: "), "{}", hint("2"));
+    let last = hint("3");
+    assert!(
+        last.contains("render_pt.rs:") && last.contains("sheet.md") && last.contains("rerun: "),
+        "{last}"
+    );
+    assert!(!last.contains("cargo hint"), "{last}");
 }
 
 #[test]

@@ -87,6 +87,12 @@ fn both_pages_do_what_a_person_expects() {
     a_report_can_be_looked_at(&mut browser, &ann.join("report-tutor.html"));
     a_report_can_be_used_without_a_mouse(&mut browser, &ann.join("report.html"));
     a_class_can_be_sorted_and_searched(&mut browser, &out);
+    if let Some(script) = browser::axe::script() {
+        for page in [ann.join("report.html"), ann.join("report-tutor.html"), out.join("class.html")] {
+            let found = browser::axe::violations(&mut browser, &script, &page);
+            assert_eq!(found, "", "{}", page.display());
+        }
+    }
     for key in ["bob", "cem", "dan"] {
         for page in ["report.html", "report-tutor.html"] {
             browser.open(&out.join("submissions").join(key).join(page), 1000, 800);

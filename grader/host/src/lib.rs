@@ -2,8 +2,9 @@
 //!
 //! The submission is linked into a small fixed program (`program/main.rs`) whose `main` calls `serve`. The process
 //! reads [`Request`](protocol::Request)s from its standard input and writes a [`Response`](protocol::Response) to
-//! each to its original standard output; output of the submission goes to standard error. The process only returns
-//! numbers: the grader judges them. It is confined from its start, and tightens the confinement before it runs code of
+//! each to its original standard output; output of the submission goes to standard error. Its printing macros are
+//! replaced (`printed`): a line is formatted only while a path is replayed. The process only returns numbers: the
+//! grader judges them. It is confined from its start, and tightens the confinement before it runs code of
 //! the submission ([`confine`]).
 //!
 //! Without the feature `serve`, the crate contains only the protocol, for the grader.

@@ -3,6 +3,8 @@
 //! The protocol goes through the browser's pipe (`--remote-debugging-pipe`: descriptors 3 and 4, messages that end in a
 //! zero byte), which a shell connects with the child's standard input and output. So it takes no port and no crate.
 
+pub(crate) mod axe;
+
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};

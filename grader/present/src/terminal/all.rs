@@ -8,7 +8,6 @@ use comfy_table::{Attribute, Cell, CellAlignment, Color, ContentArrangement, Tab
 use verdict::check::{CheckId, CheckResult, Verdict};
 use verdict::report::{Report, TaskResult};
 use verdict::sandbox::Level;
-use verdict::text::harmless;
 
 use super::lines::{bold, loud, paint, paragraph};
 use crate::words::{self, count};
@@ -24,22 +23,6 @@ pub(super) fn write(out: &mut impl Write, report: &Report, width: Option<usize>)
     writeln!(out, "{}", table(report, width))?;
     paragraph(out, "", &words::sum(report), width)?;
     write_causes(out, report, width)?;
-    for explanation in &report.submission.explanations {
-        let name = harmless(&explanation.name);
-        let content = match &explanation.text {
-            Some(text) => {
-                let words = count(text.split_whitespace().count(), "word");
-                format!("explanation: {name}, {words}, shown in report.html")
-            }
-            None => {
-                format!(
-                    "explanation: {name}, {}; not a text file, open it directly",
-                    count(explanation.bytes, "byte")
-                )
-            }
-        };
-        paragraph(out, "", &content, width)?;
-    }
     for task in &report.tasks {
         write_failures(out, task, report, width)?;
     }

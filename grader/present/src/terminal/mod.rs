@@ -10,8 +10,9 @@ use std::io::{self, Write};
 
 use verdict::report::Report;
 use verdict::submission::SourceFinding;
+use verdict::text::harmless;
 
-use crate::words;
+use crate::words::{self, count};
 use lines::paragraph;
 
 mod all;
@@ -70,11 +71,33 @@ fn write_summary(
         Detail::Next => next::write(out, report, width)?,
         Detail::All => all::write(out, report, width)?,
     }
+    write_explanations(out, report, width)?;
     for SourceFinding { line, what, why } in &report.sandbox.findings {
         let text = format!("violation: render_pt.rs:{line}: {what}: {why}; the sandbox refuses it");
         paragraph(out, "", &text, width)?;
     }
     words::prints(&report.submission.prints).map_or(Ok(()), |note| paragraph(out, "", &note, width))
+}
+
+/// What was sent with the file, for the tutor who grades it.
+fn write_explanations(out: &mut impl Write, report: &Report, width: Option<usize>) -> io::Result<()> {
+    for explanation in &report.submission.explanations {
+        let name = harmless(&explanation.name);
+        let content = match &explanation.text {
+            Some(text) => {
+                let words = count(text.split_whitespace().count(), "word");
+                format!("explanation: {name}, {words}, shown in report.html")
+            }
+            None => {
+                format!(
+                    "explanation: {name}, {}; not a text file, open it directly",
+                    count(explanation.bytes, "byte")
+                )
+            }
+        };
+        paragraph(out, "", &content, width)?;
+    }
+    Ok(())
 }
 
 #[cfg(test)]
