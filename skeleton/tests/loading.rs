@@ -232,8 +232,8 @@ fn a_concave_polygon_has_its_own_area() {
     let mesh = &loaded.description.meshes[0];
     let area = |triangle: usize| {
         let [a, b, c] = corners(mesh, triangle);
-        // Towards the same side as the polygon's corners, which are clockwise.
-        (b - a).cross(c - a).z / -2.0
+        // Positive: towards the same side as the polygon, whose corners are counter-clockwise.
+        (b - a).cross(c - a).z / 2.0
     };
     let areas: Vec<f32> = (0..mesh.triangles.len()).map(area).collect();
     assert_eq!((areas.len(), areas.iter().sum::<f32>()), (2, 1.0), "{areas:?}");
