@@ -8,7 +8,7 @@ use verdict::error::{Error, Result};
 
 /// Files and folders that are included, without tests: some of these need the solution, and some show how to sample a
 /// light.
-const INCLUDED: [&str; 19] = [
+const INCLUDED: [&str; 20] = [
     ".gitattributes",
     ".gitignore",
     ".vscode",
