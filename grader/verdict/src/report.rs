@@ -50,6 +50,24 @@ pub struct Report {
     /// Errors of a few pictures against their references, if they were rendered. They do not affect points.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub images: Vec<ImageError>,
+    /// Who handed it in, and when, on the pages of a class.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hand_in: Option<HandIn>,
+}
+
+/// Who handed a submission in, and when.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct HandIn {
+    /// Name of the student, or the login if the name is unknown.
+    pub student: String,
+    /// Receipt time in the time zone of the course; `None` if it is unknown.
+    pub received_at: Option<String>,
+    /// Seconds after the deadline; `None` if it was in time or the receipt time is unknown.
+    pub late_by: Option<i64>,
+    /// Factor for raw points because it was late.
+    pub factor: f64,
+    /// Points that count, after the penalty, with those of a tutor so far.
+    pub points: f64,
 }
 
 /// The submission that was graded.

@@ -123,6 +123,7 @@ pub fn report(text: &str) -> Report {
         provenance: Provenance { toolchain: text(), assignment: text(), ..Provenance::default() },
         convergence: None,
         images: Vec::new(),
+        hand_in: None,
     }
 }
 

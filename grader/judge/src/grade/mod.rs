@@ -243,6 +243,7 @@ impl Grader {
             provenance: self.provenance.clone(),
             convergence: None,
             images: Vec::new(),
+            hand_in: None,
         };
         report.diagnosis = self.catalogue.diagnose(&report, &submission.source, &self.starter);
         Ok((report, program))

@@ -49,6 +49,7 @@ fn page_with(report: &Report, pictures: &[Picture], edition: Edition, script: &s
             @let rest = words::not_covered(points);
             p.sum { (points.earned) " of " (words::number_of_points(points.automatic_max)) " "
                 small { "graded automatically" @if !rest.is_empty() { "; " (rest) } } }
+            (hand_in(report))
         }
         main {
             @if let Some(failure) = &report.submission.build_failure {
@@ -84,6 +85,21 @@ fn statistics(report: &Report, edition: Edition) -> Markup {
             h2 { "Statistics" }
             details { summary { "error against run time" @if parts.len() > 1 { ", bias and noise" } }
                 @for part in parts { (PreEscaped(part)) } }
+        }
+    }
+}
+
+/// Who handed it in, when, and the points that count.
+fn hand_in(report: &Report) -> Markup {
+    let Some(hand_in) = &report.hand_in else { return html! {} };
+    html! {
+        p { b { (hand_in.student) }
+            @if let Some(time) = &hand_in.received_at { " · received " (time) }
+            @if let Some(late_by) = hand_in.late_by {
+                " · " (words::duration(late_by)) " late"
+                @if hand_in.factor > 0.0 { ": points × " (hand_in.factor) } @else { ": no longer accepted" }
+            }
+            " · " b { (words::number_of_points(hand_in.points)) } " so far"
         }
     }
 }

@@ -134,3 +134,23 @@ fn a_page_that_would_be_too_large_has_fewer_pictures() {
         text.len()
     );
 }
+
+#[test]
+fn the_page_of_a_class_says_who_handed_in_when_and_what_counts() {
+    let mut report = report("open");
+    assert!(!page(&report, &[], Edition::Tutor).contains("received"));
+    report.hand_in = Some(verdict::report::HandIn {
+        student: EVIL.to_owned(),
+        received_at: Some("2026-05-22 01:00 CEST".to_owned()),
+        late_by: Some(3660),
+        factor: 0.8,
+        points: 8.0,
+    });
+    let text = page(&report, &[], Edition::Student { concealed: 0, passed: 0 });
+    assert!(
+        text.contains(
+            "received 2026-05-22 01:00 CEST · 1 h 01 min 00 s late: points × 0.8 · <b>8 points</b>"
+        )
+    );
+    assert!(!text.contains("<script>alert"), "names are escaped");
+}

@@ -30,7 +30,7 @@ pub use fault::{fault, numerics};
 pub use hint::{hint_on_causes, hint_on_check, hint_on_paths};
 pub(crate) use next::standing;
 pub use next::{changes, finish, next_heading, prints, steps_done};
-pub use number::{count, number_of_points};
+pub use number::{count, duration, number_of_points};
 pub(crate) use points::staff_only;
 pub use points::{not_covered, sum};
 pub use sandbox::missing_layers;

@@ -10,6 +10,11 @@ pub fn number_of_points(points: f64) -> String {
     if points == 1.0 { "1 point".to_owned() } else { format!("{points} points") }
 }
 
+/// A duration in whole seconds: "1 h 05 min 00 s".
+pub fn duration(seconds: i64) -> String {
+    format!("{} h {:02} min {:02} s", seconds / 3600, seconds / 60 % 60, seconds % 60)
+}
+
 /// A fraction in percent, with at most so many digits after the point and without trailing zeros: "2 %", "0.51 %".
 pub(super) fn percent(fraction: f64, digits: usize) -> String {
     format!("{} %", trimmed(100.0 * fraction, digits))
