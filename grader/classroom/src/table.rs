@@ -1,14 +1,20 @@
-//! CSV tables as course systems and spreadsheets write them.
+//! Tables as course systems and spreadsheets write them.
+
+mod spreadsheet;
 
 use std::path::Path;
 
 use csv::{ReaderBuilder, WriterBuilder};
+use encoding_rs::{Encoding, WINDOWS_1252};
 
 use verdict::error::{Error, Result};
 use verdict::output;
 
 /// Maximum size of a table in bytes, more than the largest class needs.
 const MAX_BYTES: u64 = 16 << 20;
+
+/// Separators of cells, the most likely one first.
+const SEPARATORS: [u8; 3] = *b",;\t";
 
 /// A table with a header.
 #[derive(Clone, Debug)]
@@ -40,35 +46,44 @@ impl Row {
 }
 
 impl Table {
-    /// Reads a table. The separator is the one that occurs most often in the first line.
+    /// Reads a table: CSV in UTF-8, UTF-16 or Windows-1252, or the first sheet of a spreadsheet. The separator of CSV is
+    /// the one that occurs most often in the header outside of quotes.
     ///
     /// # Errors
-    /// If it cannot be read or is not UTF-8, or if a row has more cells than the header.
+    /// If it cannot be read, or if a row has more cells than the header.
     pub fn load(path: &Path) -> Result<Self> {
         let size = std::fs::metadata(path).map_err(|error| Error::file(path, error))?.len();
         if size > MAX_BYTES {
             return Err(Error::file(path, format!("{size} bytes are too many for a table")));
         }
         let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
-        let text = String::from_utf8(bytes).map_err(|_| Error::file(path, "it is not UTF-8"))?;
-        Self::parse(&text)
+        if bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"\xd0\xcf\x11\xe0") {
+            return spreadsheet::read(path, bytes);
+        }
+        let (text, is_marked) = decode(&bytes).map_err(|message| Error::file(path, message))?;
+        Self::parse(&text, is_marked)
             .map_err(|(line, message)| Error::Input(format!("{}:{line}: {message}", path.display())))
     }
 
-    fn parse(text: &str) -> std::result::Result<Self, (u64, String)> {
-        let (text, marked) = text.strip_prefix('\u{feff}').map_or((text, false), |rest| (rest, true));
+    fn parse(text: &str, marked: bool) -> std::result::Result<Self, (u64, String)> {
+        // Excel's own hint, which other programs take for a row.
         let first = text.lines().next().unwrap_or_default();
-        let count = |separator: &u8| first.bytes().filter(|byte| byte == separator).count();
-        let separator = [b',', b';', b'\t'].into_iter().rev().max_by_key(count).unwrap_or(b',');
+        let hint = first.trim_end().strip_prefix("sep=").and_then(|rest| rest.bytes().next());
+        let (text, before) = match (hint, text.split_once('\n')) {
+            (Some(_), Some((_, rest))) => (rest, 1),
+            _ => (text, 0),
+        };
+        let separator = hint.unwrap_or_else(|| separator(text));
         let mut reader =
             ReaderBuilder::new().delimiter(separator).flexible(true).from_reader(text.as_bytes());
-        let blame = |error: csv::Error| (error.position().map_or(1, csv::Position::line), error.to_string());
+        let blame =
+            |error: csv::Error| (before + error.position().map_or(1, csv::Position::line), error.to_string());
         let header: Vec<String> =
             reader.headers().map_err(blame)?.iter().map(|name| name.trim().to_owned()).collect();
         let mut rows = Vec::new();
         for record in reader.records() {
             let record = record.map_err(blame)?;
-            let line = record.position().map_or(0, csv::Position::line);
+            let line = before + record.position().map_or(0, csv::Position::line);
             let mut cells: Vec<String> = record.iter().map(str::to_owned).collect();
             if cells.iter().all(|cell| cell.trim().is_empty()) {
                 continue;
@@ -120,6 +135,49 @@ impl Table {
     }
 }
 
+/// Text of a table, and whether it should be saved with a byte order mark.
+fn decode(bytes: &[u8]) -> std::result::Result<(String, bool), String> {
+    if let Some((encoding, length)) = Encoding::for_bom(bytes) {
+        let (text, has_errors) = encoding.decode_without_bom_handling(&bytes[length..]);
+        return if has_errors {
+            Err(format!("it is not valid {}", encoding.name()))
+        } else {
+            Ok((text.into_owned(), true))
+        };
+    }
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Ok((text.to_owned(), false)),
+        Err(_) if bytes.contains(&0) => Err("it is neither text nor a spreadsheet".to_owned()),
+        // What spreadsheets write in Western Europe if nobody tells them otherwise.
+        Err(_) => Ok((WINDOWS_1252.decode_without_bom_handling(bytes).0.into_owned(), true)),
+    }
+}
+
+/// The separator that occurs most often in the first row, outside of quotes.
+fn separator(text: &str) -> u8 {
+    let (mut counts, mut is_quoted) = ([0; SEPARATORS.len()], false);
+    for byte in text.bytes() {
+        match byte {
+            b'"' => is_quoted = !is_quoted,
+            b'\n' if !is_quoted => break,
+            _ if !is_quoted => {
+                if let Some(index) = SEPARATORS.iter().position(|separator| *separator == byte) {
+                    counts[index] += 1;
+                }
+            }
+            _ => {}
+        }
+    }
+    let best = (0..SEPARATORS.len()).rev().max_by_key(|&index| counts[index]).unwrap_or(0);
+    SEPARATORS[best]
+}
+
+/// A number as offices write it: `8`, `7.5` or `7,5`; `None` if it is none.
+pub fn number(text: &str) -> Option<f64> {
+    let value: f64 = text.trim().replace(',', ".").parse().ok()?;
+    value.is_finite().then_some(value)
+}
+
 /// Escapes a text, with a leading `'`, that a spreadsheet would take for a formula.
 pub fn no_formula(text: &str) -> String {
     // A tab or carriage return before the sign is skipped by some spreadsheets.
@@ -132,6 +190,13 @@ pub fn no_formula(text: &str) -> String {
 mod tests {
     use super::*;
 
+    fn table(bytes: &[u8]) -> Result<Table> {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("table.csv");
+        std::fs::write(&path, bytes).expect("it can be written");
+        Table::load(&path)
+    }
+
     #[test]
     fn separators_marks_and_ragged_rows_are_taken_as_they_come() {
         for (text, expected) in [
@@ -141,13 +206,39 @@ mod tests {
             ("a,b\n1\n", ""),
             ("a,b\n1,\"2, \"\"x\"\"\"\n", "2, \"x\""),
             ("a,b\n1,2,\n", "2"),
+            ("sep=;\r\na;b\r\n1;2\r\n", "2"),
+            ("\"a, b, c, d\";b\n1;2\n", "2"),
         ] {
-            let table = Table::parse(text).expect("it is a table");
+            let table = table(text.as_bytes()).expect("it is a table");
             assert_eq!((table.rows.len(), table.rows[0].cell(1)), (1, expected), "{text:?}");
         }
-        assert_eq!(Table::parse("a,b\n1,2\n1,2,3\n").expect_err("too many").0, 3);
-        let table = Table::parse("E-Mail address,X\n").expect("it is a table");
+        let message = table(b"sep=,\na,b\n1,2\n1,2,3\n").expect_err("too many").to_string();
+        assert!(message.contains("table.csv:4:"), "{message}");
+        let table = table(b"E-Mail address,X\n").expect("it is a table");
         assert_eq!(table.column(&["mail", "Email Address"]), Some(0));
+    }
+
+    #[test]
+    fn the_encodings_of_offices_are_read() {
+        let text = "Name;Gruppe\nMüller;ß\n";
+        let utf16: Vec<u8> =
+            "\u{feff}".encode_utf16().chain(text.encode_utf16()).flat_map(u16::to_le_bytes).collect();
+        let windows = WINDOWS_1252.encode(text).0.into_owned();
+        for bytes in [text.as_bytes(), &utf16, &windows] {
+            let table = table(bytes).expect("it is a table");
+            assert_eq!((table.rows[0].cell(0), table.rows[0].cell(1)), ("Müller", "ß"));
+        }
+        assert!(table(b"a\0b\xff").is_err());
+        assert!(
+            table(b"PK\x03\x04 no spreadsheet")
+                .expect_err("it is none")
+                .to_string()
+                .contains("save it as CSV")
+        );
+        assert_eq!(
+            [number("7,5"), number(" 8 "), number("x"), number("inf")],
+            [Some(7.5), Some(8.0), None, None]
+        );
     }
 
     #[test]

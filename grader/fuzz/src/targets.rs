@@ -95,7 +95,7 @@ pub fn rubric(data: &[u8]) {
 pub fn tables(data: &[u8]) {
     let folder = folder();
     let file = write(&folder, "a.csv", data);
-    let _ = roster::load(&file);
+    let _ = roster::load(&file, true);
     if let Ok(zone) = zone("Europe/Berlin") {
         let _ = Manifest::load(&file, &zone);
     }

@@ -5,21 +5,21 @@ use std::process::ExitCode;
 
 use jiff::tz::TimeZone;
 
+use super::class_tables::{Systems, Tables, exit_status, print_changes};
 use super::intake::reader;
 use super::min_sandbox::MinSandbox;
 use super::policy::policy;
-use classroom::class::gradebook::{Row, State, save_class, save_gradebook};
-use classroom::class::page::ClassPage;
-use classroom::class::{Class, Outcome, RunOptions, has_results, roster, run as grade_all, similar, systems};
-use classroom::policy::{Manifest, Policy, Receipt, Standing, parse_received};
+use classroom::class::roster::Roster;
+use classroom::class::shard::{ClassHash, Shard, ShardFile};
+use classroom::class::{Accepted, Class, RunOptions, has_results, run as grade_all};
+use classroom::lock::FolderLock;
+use classroom::policy::{Manifest, Policy, Receipt, parse_received};
 use harness::assignment::Assignment;
 use harness::workspace::Workspace;
 use judge::grade::Options;
-use present::streams::{note, print_line};
-use present::words::count;
+use present::streams::note;
 use verdict::error::{Error, Result};
 use verdict::output;
-use verdict::rubric::Rubric;
 
 /// Grade a class: a folder of submissions as exported by Moodle or ILIAS, or with one folder, archive or file per student
 ///
@@ -29,11 +29,15 @@ use verdict::rubric::Rubric;
 pub(super) struct Arguments {
     /// Folder with the submissions
     folder: PathBuf,
-    /// Class roster (CSV) [default: the file of --moodle or --ilias]
-    #[arg(long, value_name = "FILE.csv")]
+    /// Class roster (CSV or a spreadsheet); --moodle and --ilias add to it, or take its place
+    #[arg(long, value_name = "FILE")]
     roster: Option<PathBuf>,
-    /// Receipt times (CSV: student, received_at, md5, md5_received_at, path); file times are never used
-    #[arg(long, value_name = "FILE.csv")]
+    /// The column `Group` of roster and worksheet names teams that hand in together
+    #[arg(long)]
+    teams: bool,
+    /// Receipt times (columns student, received_at, md5, md5_received_at, path, team; or a table of Moodle or ILIAS with
+    /// the time of submission); file times are never used
+    #[arg(long, value_name = "FILE")]
     manifest: Option<PathBuf>,
     /// Receipt time of submissions not listed in the manifest
     #[arg(long, value_name = "TIME")]
@@ -41,12 +45,8 @@ pub(super) struct Arguments {
     /// Deadline and extensions [default: course.yml beside the rubric, if there is one]
     #[arg(long, value_name = "FILE.yml")]
     course: Option<PathBuf>,
-    /// Moodle's grading worksheet; a completed copy is written to --out
-    #[arg(long, value_name = "FILE.csv")]
-    moodle: Option<PathBuf>,
-    /// The status.csv of an ILIAS exercise; a completed copy is written to --out
-    #[arg(long, value_name = "FILE.csv")]
-    ilias: Option<PathBuf>,
+    #[command(flatten)]
+    systems: Systems,
     #[command(flatten)]
     assignment: Assignment,
     /// Folder for the results; created if missing
@@ -61,6 +61,19 @@ pub(super) struct Arguments {
     /// Grade everything again, and print which scores changed
     #[arg(long)]
     regrade: bool,
+    /// Replace nothing: grade what has changed into the folder preview of --out, and print whose checks and points would
+    /// change
+    #[arg(long, conflicts_with_all = ["resume", "shard"])]
+    preview: bool,
+    /// Grade one of several parts of the class into a folder of its own in --out; `grader merge` puts them together
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+    /// Grade although more than half of the roster is missing
+    #[arg(long)]
+    allow_missing: bool,
+    /// Grade submissions of people whom no roster or manifest names, as rows of their own
+    #[arg(long)]
+    allow_unknown: bool,
     /// Score only; skip the HTML pages and their images
     #[arg(long)]
     no_report: bool,
@@ -76,41 +89,80 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
-    let out = &arguments.out;
-    if has_results(out) && !(arguments.resume || arguments.regrade) {
-        return Err(Error::file(
-            out,
-            "there are results of an earlier run: --resume grades only what has changed, --regrade grades everything",
-        ));
-    }
+    let out = arguments.shard.map_or_else(|| arguments.out.clone(), |shard| shard.folder(&arguments.out));
+    arguments.check_earlier_results(&out)?;
     let rubric = arguments.assignment.rubric(workspace)?;
     let policy = policy(workspace, &arguments.assignment.name, &rubric, arguments.course.as_deref())?;
-    let class = arguments.class(policy.as_ref())?;
+    let mut class = arguments.class(policy.as_ref())?;
     output::create_folder(&out.join("submissions"))?;
-    let options = arguments.options();
-    let tasks: Vec<String> = rubric.tasks.iter().map(|task| task.id.clone()).collect();
-    let gradebook = out.join("gradebook.csv");
-    note(format_args!("{} in the class, {} at once", class.members.len(), options.jobs));
+    let _lock = match arguments.shard {
+        Some(_) => FolderLock::of_results_in_turn(&out)?,
+        None => FolderLock::of_results(&out)?,
+    };
+    let shard = arguments.shard.map(|shard| (shard, ClassHash::of(&class, policy.as_ref())));
+    if let Some((shard, _)) = &shard {
+        // Half of it is no shard to be merged.
+        output::remove(&ShardFile::path(&out))?;
+        class.keep(*shard);
+    }
+    let options = arguments.options(out.clone());
+    let tables = Tables {
+        systems: &arguments.systems,
+        assignment: &arguments.assignment.name,
+        rubric: &rubric,
+        out: &out,
+        page: !arguments.no_report,
+    };
+    let part = arguments.shard.map_or_else(String::new, |shard| format!(", {shard}"));
+    note(format_args!("{} in the class{part}, {} at once", class.members.len(), options.jobs));
     let outcome = grade_all(workspace, &class, policy.as_ref(), &options, |rows| {
-        save_gradebook(&gradebook, rows, &tasks)
+        if options.preview { Ok(()) } else { tables.save_gradebook(rows) }
     })?;
-    let similar = similar::groups(&outcome.fingerprints);
-    arguments.print(&outcome, similar.len())?;
-    save_gradebook(&gradebook, &outcome.rows.iter().collect::<Vec<_>>(), &tasks)?;
-    arguments.save(&rubric, &outcome, &similar)?;
-    let has_failed = outcome.rows.iter().any(|row| row.kept || row.state == State::Harness);
-    Ok(ExitCode::from(if has_failed { 3 } else { 0 }))
+    let status = exit_status(&outcome);
+    if options.preview {
+        print_changes(&outcome)?;
+        note("nothing was replaced: --regrade or --resume does that");
+    } else if let Some((shard, hash)) = shard {
+        tables.save_gradebook(&outcome.rows.iter().collect::<Vec<_>>())?;
+        note(format_args!("{shard}: {} graded now, {} unchanged", outcome.graded, outcome.unchanged));
+        ShardFile::new(shard, hash, class.keys, outcome).save(&out)?;
+    } else {
+        tables.save(&outcome, arguments.regrade)?;
+    }
+    if !arguments.only.is_empty() {
+        note("note: with --only, sums include only tasks whose checks were all run");
+    }
+    Ok(ExitCode::from(status))
 }
 
 impl Arguments {
+    fn check_earlier_results(&self, out: &Path) -> Result<()> {
+        let earlier = has_results(out);
+        if earlier && !(self.resume || self.regrade || self.preview) {
+            return Err(Error::file(
+                out,
+                "there are results of an earlier run: --resume grades only what has changed, --regrade grades \
+                 everything, --preview shows what either would change",
+            ));
+        }
+        if self.preview && !earlier {
+            return Err(Error::file(out, "there are no results of an earlier run to compare with"));
+        }
+        Ok(())
+    }
+
     /// The members of the class with their submissions and receipt times.
     fn class(&self, policy: Option<&Policy>) -> Result<Class> {
-        let students = self.students().map_or(Ok(Vec::new()), roster::load)?;
-        let mut class = Class::find(&self.folder, &students)?;
+        let roster = Roster::load(&self.tables_of_students(), self.teams)?;
         let zone = policy.map_or(TimeZone::UTC, |policy| policy.zone().clone());
-        if let Some(path) = &self.manifest {
-            class.receive(&Manifest::load(path, &zone)?)?;
+        let manifest = self.manifest.as_ref().map(|path| Manifest::load(path, &zone)).transpose()?;
+        let teams = manifest.as_ref().map(|manifest| manifest.teams().clone()).unwrap_or_default();
+        let mut class = Class::find(&self.folder, &roster, &teams)?;
+        if let Some(manifest) = &manifest {
+            class.receive(manifest)?;
         }
+        let accepted = Accepted { missing: self.allow_missing, unknown: self.allow_unknown };
+        class.check(policy, manifest.as_ref(), accepted)?;
         if let Some(text) = &self.received_at {
             let time = parse_received(text, &zone)
                 .map_err(|error| Error::Input(format!("--received-at: {error}")))?;
@@ -121,12 +173,13 @@ impl Arguments {
         Ok(class)
     }
 
-    /// The file that names the students; `None` if none was given.
-    fn students(&self) -> Option<&Path> {
-        [&self.roster, &self.moodle, &self.ilias].into_iter().find_map(Option::as_deref)
+    /// The files that name students; the first is the roster.
+    fn tables_of_students(&self) -> Vec<&Path> {
+        let tables = [&self.roster, &self.systems.moodle, &self.systems.ilias];
+        tables.into_iter().filter_map(Option::as_deref).collect()
     }
 
-    fn options(&self) -> RunOptions {
+    fn options(&self, out: PathBuf) -> RunOptions {
         RunOptions {
             grade: Options {
                 assignment: self.assignment.name.clone(),
@@ -136,73 +189,11 @@ impl Arguments {
                 limits: self.sandbox.of_others(),
             },
             jobs: self.jobs.map_or_else(rayon::current_num_threads, usize::from),
-            out: self.out.clone(),
+            out,
             regrade: self.regrade,
-            pages: !self.no_report,
+            preview: self.preview,
+            pages: !self.no_report && !self.preview,
             reader: reader(),
         }
-    }
-
-    /// Writes class.json, similar.txt, the page, and the tables of course systems.
-    fn save(&self, rubric: &Rubric, outcome: &Outcome, similar: &[similar::Group]) -> Result<()> {
-        let out = &self.out;
-        let automatic_max = rubric.tasks.iter().filter(|task| !task.manual).map(|task| task.points).sum();
-        let assignment = (self.assignment.name.as_str(), automatic_max);
-        save_class(&out.join("class.json"), assignment, &outcome.provenance, &outcome.rows, similar)?;
-        output::write_bytes(&out.join("similar.txt"), similar::describe(similar))?;
-        note(format_args!("gradebook: {}", out.join("gradebook.csv").display()));
-        if !self.no_report {
-            let (rows, changes) = (&outcome.rows, &outcome.changes);
-            let page = ClassPage { rubric, rows, changes, similar: similar.len(), out };
-            let file = out.join("class.html");
-            page.save(&file)?;
-            note(format_args!("page: {}", file.display()));
-        }
-        if let Some(from) = &self.moodle {
-            report_filled("Moodle", &systems::fill_moodle(from, &out.join("moodle.csv"), &outcome.rows)?);
-        }
-        if let Some(from) = &self.ilias {
-            report_filled("ILIAS", &systems::fill_ilias(from, &out.join("status.csv"), &outcome.rows)?);
-        }
-        Ok(())
-    }
-
-    /// Prints how many submissions were graded, and which scores changed.
-    fn print(&self, outcome: &Outcome, similar: usize) -> Result<()> {
-        if self.regrade || !outcome.changes.is_empty() {
-            print_line(format_args!("{} of {} scores changed", outcome.changes.len(), outcome.rows.len()))?;
-            for change in &outcome.changes {
-                print_line(format_args!("  {change}"))?;
-            }
-        }
-        let number = |fits: &dyn Fn(&Row) -> bool| outcome.rows.iter().filter(|row| fits(row)).count();
-        let has_roster = self.students().is_some();
-        print_line(format_args!(
-            "{} graded now, {} unchanged, {} refused, {} missing, {} not on the roster, {} of similar submissions",
-            outcome.graded,
-            outcome.unchanged,
-            number(&|row| row.state == State::Refused),
-            number(&|row| row.state == State::Missing),
-            number(&|row| has_roster && !row.on_roster),
-            count(similar, "group"),
-        ))?;
-        let is_unknown =
-            |row: &Row| row.lateness.as_ref().is_some_and(|late| late.standing == Standing::Unknown);
-        let unknown = number(&is_unknown);
-        if unknown > 0 {
-            let submissions = count(unknown, "submission");
-            note(format_args!("{submissions} without a receipt time: counted in full (see --manifest)"));
-        }
-        if !self.only.is_empty() {
-            note("note: with --only, sums include only tasks whose checks were all run");
-        }
-        Ok(())
-    }
-}
-
-fn report_filled(system: &str, filled: &systems::Filled) {
-    note(format_args!("{system}: {} filled in", count(filled.filled, "row")));
-    for left in &filled.left {
-        note(format_args!("  left unchanged: {left}"));
     }
 }

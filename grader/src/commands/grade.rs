@@ -101,7 +101,8 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
     let grader = Grader::new(workspace, &arguments.options())?;
     let checksums = intake.checksums.clone();
     let (mut report, program) = grade(&grader, intake, &path, &mut progress)?;
-    marks.apply(&mut report);
+    let student = report.submission.path.clone();
+    marks.apply(&mut report, &student);
 
     // Whatever fails from here on, the points have been printed.
     print_points(arguments, &report, received.as_ref(), &checksums)?;

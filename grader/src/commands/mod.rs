@@ -2,6 +2,7 @@
 //! needs.
 
 mod class;
+mod class_tables;
 mod completions;
 mod converge;
 mod doctor;
@@ -12,6 +13,8 @@ mod hint;
 mod intake;
 mod lateness;
 mod mark;
+mod marks_table;
+mod merge;
 mod min_sandbox;
 mod pack;
 mod plan;
@@ -52,6 +55,7 @@ enum Command {
     Export(export::Arguments),
     Completions(completions::Arguments),
     Mark(mark::Arguments),
+    Merge(merge::Arguments),
     Plan(plan::Arguments),
     Replay(replay::Arguments),
     #[command(name = ::intake::COMMAND, hide = true)]
@@ -83,6 +87,7 @@ impl Arguments {
             Command::Export(arguments) => export::run(arguments),
             Command::Completions(arguments) => completions::run(arguments, command_line()),
             Command::Mark(arguments) => mark::run(arguments, &workspace()?),
+            Command::Merge(arguments) => merge::run(arguments, &workspace()?),
             Command::Plan(arguments) => plan::run(arguments, &workspace()?),
             Command::Replay(arguments) => replay::run(arguments, &workspace()?),
             Command::Intake(arguments) => intake::run(arguments),

@@ -3,24 +3,25 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::Member;
 use super::record::Record;
 use super::similar::Group;
-use crate::marks::Marks;
-use crate::policy::{Lateness, Policy, Receipt, Standing};
+use crate::marks::{Marks, fingerprint};
+use crate::policy::{Lateness, Receipt, Rules, Standing, points_after};
 use crate::table::{Table, no_formula};
-use verdict::error::Result;
+use verdict::error::{Error, Result};
 use verdict::output;
 use verdict::report::Provenance;
+use verdict::rubric::Rubric;
 use verdict::submission::IntakeFinding;
 
 /// Version of the format of `class.json`.
-const SCHEMA: &str = "arty-class/1";
+const SCHEMA: &str = "arty-class/2";
 
 /// Where the points of a row come from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum State {
     /// The submission was graded; it may not have compiled.
@@ -34,7 +35,7 @@ pub enum State {
 }
 
 /// One student or submission.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Unique name of the student and of the folder in `submissions/`.
     pub key: String,
@@ -70,6 +71,12 @@ pub struct Row {
     pub points: Option<f64>,
     /// Written explanations, by name.
     pub explanations: Vec<String>,
+    /// [`crate::marks::fingerprint`] of the explanations; empty if there are none.
+    pub explanation: String,
+    /// Tutors' comments, by task.
+    pub comments: BTreeMap<String, String>,
+    /// Team that handed in together; empty if the student handed in alone.
+    pub team: String,
     /// Time of grading.
     pub graded_at: Option<String>,
     /// BLAKE3 of the source.
@@ -87,8 +94,8 @@ impl Row {
             first_name: student.first_name,
             login: student.login,
             email: student.email,
-            numbers: student.numbers,
-            on_roster: member.student.is_some(),
+            numbers: student.identifiers.into_iter().chain(student.numbers).collect(),
+            on_roster: member.on_roster,
             sent: member.label.clone(),
             state,
             reason: None,
@@ -99,6 +106,9 @@ impl Row {
             lateness: None,
             points: None,
             explanations: Vec::new(),
+            explanation: String::new(),
+            comments: BTreeMap::new(),
+            team: member.team.clone(),
             graded_at: None,
             source: String::new(),
             kept: false,
@@ -117,14 +127,12 @@ impl Row {
         Self { reason: Some(reason), ..Self::new(member, State::Harness) }
     }
 
-    /// Row of a submission that was taken in.
+    /// Row of a submission that was taken in, without marks and penalty.
     pub(super) fn of_record(
         member: &Member,
         record: &Record,
-        marks: &Marks,
         lateness: Option<Lateness>,
         receipt: Option<&Receipt>,
-        policy: Option<&Policy>,
     ) -> Self {
         let refused = record.report.is_empty();
         let mut reason = record.reason.clone();
@@ -132,28 +140,51 @@ impl Row {
             let message = format!("not accepted: {} late", late.late_by_text());
             reason = Some(IntakeFinding { code: "late".to_owned(), message });
         }
-        let (mut tasks, mut raw) = (record.tasks.clone(), record.earned);
-        for mark in marks.of(&record.source) {
-            raw += mark.points;
-            tasks.insert(mark.task.clone(), Some(mark.points));
-        }
-        let points = match (policy, &lateness) {
-            (Some(policy), Some(lateness)) => policy.points(raw, lateness),
-            _ => raw,
-        };
         Self {
             reason,
             notes: record.notes.clone(),
-            tasks,
-            raw: Some(raw),
+            tasks: record.tasks.clone(),
+            raw: Some(record.earned),
             received_at: receipt.and_then(|receipt| receipt.received_at).map(|time| time.to_string()),
             lateness,
-            points: Some(points),
+            points: Some(record.earned),
             explanations: record.explanations.iter().map(|explanation| explanation.name.clone()).collect(),
+            explanation: fingerprint(&record.explanations),
             graded_at: Some(record.graded_at.clone()),
             source: record.source.clone(),
             ..Self::new(member, if refused { State::Refused } else { State::Graded })
         }
+    }
+
+    /// Adds the marks of the student and the penalty for being late, to a row that has neither.
+    pub(super) fn apply(&mut self, marks: &Marks, rules: Option<&Rules>) {
+        for mark in marks.of(&self.key, &self.explanation) {
+            self.raw = Some(self.raw.unwrap_or(0.0) + mark.points);
+            self.tasks.insert(mark.task.clone(), Some(mark.points));
+            if !mark.comment.is_empty() {
+                self.comments.insert(mark.task.clone(), mark.comment.clone());
+            }
+        }
+        for mark in marks.outdated(&self.key, &self.explanation) {
+            let message = format!("the explanation has changed since task {} was marked", mark.task);
+            self.notes.push(IntakeFinding { code: "mark-again".to_owned(), message });
+        }
+        self.points = match (rules, &self.lateness, self.raw) {
+            (Some(rules), Some(lateness), Some(raw)) => Some(points_after(rules, raw, lateness)),
+            (_, _, raw) => raw,
+        };
+    }
+
+    /// Tasks that a tutor has still to mark: those without points if an explanation was handed in.
+    pub fn unmarked<'a>(&'a self, rubric: &'a Rubric) -> impl Iterator<Item = &'a str> {
+        let has_points = |task: &str| self.tasks.get(task).copied().flatten().is_some();
+        let manual = rubric.tasks.iter().filter(|task| task.manual).map(|task| task.id.as_str());
+        manual.filter(move |task| !self.explanations.is_empty() && !has_points(task))
+    }
+
+    /// First and last name; empty if unknown.
+    pub fn name(&self) -> String {
+        format!("{} {}", self.first_name, self.last_name).trim().to_owned()
     }
 
     /// One line for the terminal.
@@ -169,7 +200,10 @@ impl Row {
         let mut parts: Vec<String> = self
             .tasks
             .iter()
-            .filter_map(|(task, points)| points.map(|points| format!("{task}: {points}")))
+            .filter_map(|(task, points)| {
+                let comment = self.comments.get(task).map_or_else(String::new, |text| format!(" ({text})"));
+                points.map(|points| format!("{task}: {points}{comment}"))
+            })
             .collect();
         if let Some(lateness) = self.lateness.as_ref().filter(|lateness| lateness.standing == Standing::Late)
         {
@@ -187,7 +221,7 @@ impl Row {
 pub fn save_gradebook(path: &Path, rows: &[&Row], tasks: &[String]) -> Result<()> {
     let names = |list: &[&str]| list.iter().map(|&name| name.to_owned()).collect::<Vec<String>>();
     let mut header =
-        names(&["student", "last_name", "first_name", "login", "email", "number", "state", "reason"]);
+        names(&["student", "last_name", "first_name", "login", "email", "number", "team", "state", "reason"]);
     header.extend(tasks.iter().cloned());
     header.extend(names(&[
         "raw",
@@ -220,6 +254,7 @@ pub fn save_gradebook(path: &Path, rows: &[&Row], tasks: &[String]) -> Result<()
             text(&row.login),
             text(&row.email),
             text(&row.numbers.join(" ")),
+            text(&row.team),
             format!("{:?}", row.state).to_lowercase() + if row.kept { " (kept)" } else { "" },
             row.reason.as_ref().map_or_else(String::new, |reason| reason.code.clone()),
         ];
@@ -267,4 +302,25 @@ pub fn save_class(
     let (assignment, automatic_max) = assignment;
     let file = ClassFile { schema: SCHEMA, assignment, automatic_max, provenance, rows, similar };
     output::write_json(path, &file)
+}
+
+/// Reads the rows of a `class.json`.
+///
+/// # Errors
+/// If there is none, or it is of another version.
+pub fn load_rows(path: &Path) -> Result<Vec<Row>> {
+    #[derive(Deserialize)]
+    struct ClassFile {
+        schema: String,
+        rows: Vec<Row>,
+    }
+    let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
+    let file: ClassFile = serde_json::from_slice(&bytes).map_err(|error| Error::file(path, error))?;
+    if file.schema != SCHEMA {
+        return Err(Error::file(
+            path,
+            format!("this is {}, not {SCHEMA}: grade the class again", file.schema),
+        ));
+    }
+    Ok(file.rows)
 }

@@ -3,19 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use super::identity::Identity;
 use verdict::error::{Error, Result};
 use verdict::text::harmless;
-
-/// What the name of a folder or file tells about its student.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Identity {
-    /// The login.
-    pub login: Option<String>,
-    /// Number of the student in the course system.
-    pub number: Option<String>,
-    /// First and last name in any order.
-    pub full_name: Option<String>,
-}
 
 /// Files that one student sent.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,6 +16,8 @@ pub struct Sent {
     pub identity: Identity,
     /// Files and folders.
     pub paths: Vec<PathBuf>,
+    /// Members of a team, as far as folders in the team's folder name them.
+    pub inside: Vec<Identity>,
 }
 
 /// All submissions in a folder, in the order of their names.
@@ -41,12 +33,16 @@ pub fn submissions(folder: &Path) -> Result<Vec<Sent>> {
     for path in entries(&folder)? {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let label = label(&name, path.is_dir());
-        let identity = identity(&label);
+        let identity = Identity::of(&label);
         // The paths keep the name; everything that is written or printed has this one.
         let label = harmless(&label);
+        let inside = if identity.team.is_some() { named_inside(&path) } else { Vec::new() };
         // All that Moodle keeps of a student has the same number.
-        let key = identity.number.clone().unwrap_or_else(|| label.clone());
-        let sent = found.entry(key).or_insert(Sent { label, identity, paths: Vec::new() });
+        let key = identity.number.clone().unwrap_or_else(|| match &identity.team {
+            Some(team) => format!("team {team}"),
+            None => label.clone(),
+        });
+        let sent = found.entry(key).or_insert(Sent { label, identity, paths: Vec::new(), inside });
         sent.paths.push(path);
     }
     if found.is_empty() {
@@ -61,9 +57,7 @@ fn inner_folder(folder: &Path) -> Result<PathBuf> {
     let mut inner = folder.to_owned();
     for _ in 0..4 {
         let below = entries(&inner)?;
-        let numbered =
-            |path: &PathBuf| identity(&path.file_name().unwrap_or_default().to_string_lossy()).number;
-        if below.iter().any(|path| numbered(path).is_some()) {
+        if below.iter().any(|path| identity_of(path).is_of_course_system()) {
             return Ok(inner);
         }
         match below.as_slice() {
@@ -105,29 +99,15 @@ fn label(name: &str, is_folder: bool) -> String {
     name.to_owned()
 }
 
-/// Reads the identity of a student from a name.
-fn identity(label: &str) -> Identity {
-    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
-    // Moodle: `Full Name_1234567_assignsubmission_file…`
-    if let Some((who, _)) = label.split_once("_assignsubmission_")
-        && let Some((name, number)) = who.rsplit_once('_')
-        && is_number(number)
-    {
-        return Identity { login: None, number: Some(number.to_owned()), full_name: Some(name.to_owned()) };
-    }
-    // ILIAS: `Last_First_login_1234`
-    let parts: Vec<&str> = label.split('_').collect();
-    if let [names @ .., login, number] = parts.as_slice()
-        && names.len() >= 2
-        && is_number(number)
-    {
-        return Identity {
-            login: Some((*login).to_owned()),
-            number: Some((*number).to_owned()),
-            full_name: Some(names.join(" ")),
-        };
-    }
-    Identity { login: Some(label.to_owned()), number: None, full_name: Some(label.replace('_', " ")) }
+fn identity_of(path: &Path) -> Identity {
+    Identity::of(&path.file_name().unwrap_or_default().to_string_lossy())
+}
+
+/// Students whom folders in the folder of a team name, as ILIAS does.
+fn named_inside(folder: &Path) -> Vec<Identity> {
+    let below = if folder.is_dir() { entries(folder).unwrap_or_default() } else { Vec::new() };
+    let named = below.iter().filter(|path| path.is_dir()).map(|path| identity_of(path));
+    named.filter(|identity| identity.number.is_some()).collect()
 }
 
 #[cfg(test)]
@@ -170,6 +150,15 @@ mod tests {
         // ILIAS.
         let ilias = ["Ex/Sheet 5/Lee_Ann_al1_301/render_pt.rs", "Ex/Sheet 5/de_la_Cruz_Bo_bc2_302/a.zip"];
         expect(&ilias, &[("301", 1), ("302", 1)]);
+        // Teams.
+        expect(
+            &["Group_123457_assignsubmission_file_/render_pt.rs", "Ann Lee_11_assignsubmission_file_/x.rs"],
+            &[("11", 1), ("Group_123457_assignsubmission_file_", 1)],
+        );
+        expect(
+            &["Ex/Sheet 5/Team 3/render_pt.rs", "Ex/Sheet 5/Team 4/a.zip"],
+            &[("Team 3", 1), ("Team 4", 1)],
+        );
         // One of each for each student.
         expect(
             &["ann/src/render_pt.rs", "bob.zip", "cem.rs", "cem.pdf"],
@@ -177,16 +166,5 @@ mod tests {
         );
         expect(&["ann/src/render_pt.rs"], &[("ann", 1)]);
         expect(&["ann/src/render_pt.rs", "ann/doc/a.txt"], &[("ann", 1)]);
-    }
-
-    #[test]
-    fn names_say_who_it_is() {
-        let ilias = identity("de_la_Cruz_Bo_bc2_302");
-        assert_eq!(
-            (ilias.login.as_deref(), ilias.full_name.as_deref()),
-            (Some("bc2"), Some("de la Cruz Bo"))
-        );
-        let moodle = identity("Ann Lee_11_assignsubmission_file_");
-        assert_eq!((moodle.login, moodle.full_name.as_deref()), (None, Some("Ann Lee")));
     }
 }

@@ -1,10 +1,12 @@
 //! The members of a class: students of the roster with their submissions.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
+use super::find::find;
+use super::identity::team_key;
 use super::layout::{self, Sent};
-use super::roster::{self, Student};
+use super::roster::{Roster, Student};
 use crate::policy::Receipt;
 use verdict::error::{Error, Result};
 
@@ -13,8 +15,12 @@ use verdict::error::{Error, Result};
 pub struct Member {
     /// Unique name of the row and of its result folder: the login if there is one.
     pub key: String,
-    /// Student of the roster; `None` if the submission is of somebody else.
+    /// The student; `None` if no table names the submission's student.
     pub student: Option<Student>,
+    /// True if the student is on the roster.
+    pub on_roster: bool,
+    /// Team that handed in together; empty if the student handed in alone.
+    pub team: String,
     /// Name of the submission's folder or file; empty if there is none.
     pub label: String,
     /// Files and folders of the submission; empty if there is none.
@@ -34,6 +40,11 @@ impl Member {
         names.retain(|name| !name.is_empty());
         names
     }
+
+    /// True if the student goes by this name, whatever its case.
+    pub fn is_called(&self, name: &str) -> bool {
+        self.names().iter().any(|own| own.trim().to_lowercase() == name.trim().to_lowercase())
+    }
 }
 
 /// A class: all students of the roster, then everybody else who handed in.
@@ -41,43 +52,63 @@ impl Member {
 pub struct Class {
     /// Members in the order of the rows.
     pub members: Vec<Member>,
+    /// Keys of all members, also of those that another shard grades.
+    pub keys: Vec<String>,
     /// Folder of the submissions.
     pub folder: PathBuf,
 }
 
 impl Class {
-    /// Finds the submissions in a folder and their students on the roster, which may be empty.
+    /// Finds the submissions in a folder and their students on the roster, which may be empty. `teams` names teams of
+    /// students whom the roster gives none.
     ///
     /// # Errors
-    /// If there are no submissions.
-    pub fn find(folder: &Path, roster: &[Student]) -> Result<Self> {
-        let mut sent_by: Vec<Vec<Sent>> = vec![Vec::new(); roster.len()];
+    /// If there are no submissions, or the name of one contradicts itself.
+    pub fn find(folder: &Path, roster: &Roster, teams: &BTreeMap<String, String>) -> Result<Self> {
+        let mut students = roster.students.clone();
+        for student in students.iter_mut().filter(|student| student.team.is_empty()) {
+            let given = student.names().into_iter().find_map(|name| teams.get(&name.to_lowercase()));
+            student.team = given.cloned().unwrap_or_default();
+        }
+        let mut sent_by: Vec<Vec<Sent>> = vec![Vec::new(); students.len()];
         let mut unknown = Vec::new();
         for sent in layout::submissions(folder)? {
-            match roster::find(roster, &sent.identity) {
-                Some(index) => sent_by[index].push(sent),
-                None => unknown.push(sent),
+            let owners = owners(&students, &sent)?;
+            if owners.is_empty() {
+                unknown.push(sent);
+                continue;
+            }
+            for &index in &owners {
+                sent_by[index].push(sent.clone());
+                if sent.identity.team.is_some() && students[index].team.is_empty() {
+                    students[index].team.clone_from(&sent.label);
+                }
             }
         }
+        share_in_teams(&students, &mut sent_by);
         let mut keys = BTreeSet::new();
         let mut members = Vec::new();
-        for (student, sent) in roster.iter().zip(sent_by) {
-            members.push(member(Some(student.clone()), &student.key(), sent, &mut keys));
+        for (student, sent) in students.into_iter().zip(sent_by) {
+            let key = student.key();
+            members.push(Member { on_roster: true, ..member(Some(student), &key, sent, &mut keys) });
         }
         for sent in unknown {
-            let identity = &sent.identity;
-            let key = identity.login.clone().or_else(|| identity.full_name.clone()).unwrap_or_default();
-            members.push(member(None, &key, vec![sent], &mut keys));
+            let other = owners(&roster.others, &sent)?;
+            let student = other.first().map(|&index| roster.others[index].clone());
+            let key = student.as_ref().map_or_else(|| sent.identity.key(), Student::key);
+            members.push(member(student, &key, vec![sent], &mut keys));
         }
-        Ok(Self { members, folder: folder.to_owned() })
+        let keys = members.iter().map(|member| member.key.clone()).collect();
+        Ok(Self { members, keys, folder: folder.to_owned() })
     }
 
-    /// Adds receipt times.
+    /// Adds receipt times. What one member of a team sent, all have sent.
     ///
     /// # Errors
     /// If the manifest names an unknown student or a file that is not there.
     pub fn receive(&mut self, manifest: &crate::policy::Manifest) -> Result<()> {
         let mut unknown: BTreeSet<&str> = manifest.students().collect();
+        let mut of_teams: BTreeMap<String, Vec<Receipt>> = BTreeMap::new();
         for member in &mut self.members {
             let names: Vec<String> = member.names().iter().map(|name| name.trim().to_lowercase()).collect();
             unknown.retain(|student| !names.iter().any(|name| name == student));
@@ -93,6 +124,16 @@ impl Class {
                     )));
                 }
             }
+            if !member.team.is_empty() {
+                of_teams.entry(team_key(&member.team)).or_default().extend(member.receipts.clone());
+            }
+        }
+        for member in &mut self.members {
+            if let Some(receipts) = of_teams.get(&team_key(&member.team)).filter(|_| !member.team.is_empty())
+            {
+                member.receipts.clone_from(receipts);
+                member.receipts.dedup();
+            }
         }
         match unknown.first() {
             Some(student) => Err(Error::Input(format!(
@@ -103,15 +144,50 @@ impl Class {
     }
 }
 
+/// Indices of the students who sent something.
+fn owners(students: &[Student], sent: &Sent) -> Result<Vec<usize>> {
+    let blame = |message: String| Error::Input(format!("the submission {}: {message}", sent.label));
+    let mut owners = find(students, &sent.identity).map_err(blame)?;
+    if owners.is_empty() {
+        for identity in &sent.inside {
+            owners.extend(find(students, identity).map_err(blame)?);
+        }
+    }
+    owners.sort_unstable();
+    owners.dedup();
+    Ok(owners)
+}
+
+/// Gives each member of a team all that its members sent. If that differs, intake asks which of it counts.
+fn share_in_teams(students: &[Student], sent_by: &mut [Vec<Sent>]) {
+    let mut teams: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+    for (index, student) in students.iter().enumerate().filter(|(_, student)| !student.team.is_empty()) {
+        teams.entry(team_key(&student.team)).or_default().push(index);
+    }
+    for members in teams.values() {
+        let mut all: Vec<Sent> = members.iter().flat_map(|&index| sent_by[index].clone()).collect();
+        all.sort_by(|one, other| one.label.cmp(&other.label));
+        all.dedup_by(|one, other| one.label == other.label);
+        members.iter().for_each(|&index| sent_by[index].clone_from(&all));
+    }
+}
+
 fn member(student: Option<Student>, key: &str, sent: Vec<Sent>, keys: &mut BTreeSet<String>) -> Member {
-    let aliases = sent.iter().flat_map(|sent| [sent.identity.login.clone(), sent.identity.number.clone()]);
+    let own_names = |sent: &Sent| -> Vec<String> {
+        let identity = &sent.identity;
+        let logins = identity.readings.iter().map(|reading| reading.login.clone());
+        let logins: Vec<String> = if student.is_some() { Vec::new() } else { logins.take(1).collect() };
+        logins.into_iter().chain(identity.number.clone()).collect()
+    };
     Member {
         key: unique(&safe(key), keys),
-        student,
+        on_roster: false,
+        team: student.as_ref().map_or_else(String::new, |student| student.team.clone()),
         label: sent.first().map_or_else(String::new, |sent| sent.label.clone()),
-        aliases: aliases.flatten().collect(),
+        aliases: if sent.len() == 1 { own_names(&sent[0]) } else { Vec::new() },
         paths: sent.into_iter().flat_map(|sent| sent.paths).collect(),
         receipts: Vec::new(),
+        student,
     }
 }
 
@@ -182,12 +258,55 @@ mod tests {
             std::fs::create_dir(folder.path().join(name)).expect("it can be made");
         }
         let student = |login: &str| Student { login: login.into(), ..Student::default() };
-        let class = Class::find(folder.path(), &[student("ann"), student("bob")]).expect("there are some");
+        let roster = Roster { students: vec![student("ann"), student("bob")], ..Roster::default() };
+        let class = Class::find(folder.path(), &roster, &BTreeMap::new()).expect("there are some");
         let rows: Vec<_> = class
             .members
             .iter()
             .map(|member| (member.key.as_str(), member.student.is_some(), member.paths.len()))
             .collect();
         assert_eq!(rows, [("ann", true, 1), ("bob", true, 0), ("zoe", false, 1)]);
+    }
+
+    #[test]
+    fn a_team_has_one_submission_and_several_rows() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        for name in ["Team 3", "cem", "Team 4/Poe_Dee_dp_304", "Team 4/Fox_Eve_ef_305"] {
+            std::fs::create_dir_all(folder.path().join(name)).expect("it can be made");
+        }
+        let student = |login: &str, team: &str| Student {
+            login: login.into(),
+            team: team.into(),
+            ..Student::default()
+        };
+        let students = [
+            ("ann", "3"),
+            ("bob", "Team 3"),
+            ("cem", "red"),
+            ("dil", "red"),
+            ("dp", ""),
+            ("ef", ""),
+            ("x", ""),
+        ];
+        let students = students.map(|(login, team)| student(login, team)).to_vec();
+        let roster = Roster { students, ..Roster::default() };
+        let class = Class::find(folder.path(), &roster, &BTreeMap::new()).expect("there are some");
+        let rows: Vec<_> = class
+            .members
+            .iter()
+            .map(|member| (member.key.as_str(), member.label.as_str(), member.team.as_str()))
+            .collect();
+        assert_eq!(
+            rows,
+            [
+                ("ann", "Team 3", "3"),
+                ("bob", "Team 3", "Team 3"),
+                ("cem", "cem", "red"),
+                ("dil", "cem", "red"),
+                ("dp", "Team 4", "Team 4"),
+                ("ef", "Team 4", "Team 4"),
+                ("x", "", ""),
+            ]
+        );
     }
 }

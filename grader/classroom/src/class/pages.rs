@@ -1,5 +1,9 @@
 //! The pages of one submission of a class. Measurements and images are made once; pages are rewritten when a mark changes.
 
+use jiff::Timestamp;
+use jiff::tz::TimeZone;
+
+use super::gradebook::Row;
 use super::record::{Record, ResultDir};
 use crate::marks::Marks;
 use harness::build::SubmissionProgram;
@@ -12,7 +16,7 @@ use present::page::{Readers, remove_pages, write_pages};
 use present::pictures::{load, save, thumbnail};
 use verdict::error::Result;
 use verdict::output;
-use verdict::report::Report;
+use verdict::report::{HandIn, Report};
 
 /// Number of scenes with images on a page: fewer than for a single grade, since each takes megabytes.
 const SCENES: usize = 2;
@@ -39,12 +43,21 @@ pub(super) fn complete(
     }
 }
 
-/// Writes both pages of a graded submission unless they are up to date with report and marks. `path` is the path of the
-/// student file in a checkout.
-pub(super) fn make(result_dir: &ResultDir, record: &Record, marks: &Marks, path: &str) -> Result<()> {
+/// Writes both pages of a graded submission unless they are up to date with report, marks and lateness. `path` is the
+/// path of the student file in a checkout, `zone` the time zone of the course.
+pub(super) fn make(
+    result_dir: &ResultDir,
+    record: &Record,
+    marks: &Marks,
+    row: &Row,
+    zone: &TimeZone,
+    path: &str,
+) -> Result<()> {
+    let hand_in = hand_in(row, zone);
     let mut hasher = blake3::Hasher::new();
     hasher.update(record.key.as_bytes()).update(record.report.as_bytes()).update(path.as_bytes());
-    for mark in marks.of(&record.source) {
+    hasher.update(format!("{hand_in:?} {:?}", record.explanations).as_bytes());
+    for mark in marks.of(&row.key, &row.explanation) {
         hasher.update(format!("{mark:?}").as_bytes());
     }
     let made_of = hasher.finalize().to_hex().to_string();
@@ -52,11 +65,27 @@ pub(super) fn make(result_dir: &ResultDir, record: &Record, marks: &Marks, path:
         return Ok(());
     }
     let mut report = Report::load(&result_dir.report())?;
-    marks.apply(&mut report);
+    report.submission.explanations.clone_from(&record.explanations);
+    marks.apply(&mut report, &row.key);
+    report.hand_in = Some(hand_in);
     let shown = load(&result_dir.pictures()).unwrap_or_default();
     write_pages(&report, &shown, &result_dir.report(), Readers::Staff(Some(path)))?;
     // Last, so that pages of which one is missing are made again.
     output::write_bytes(&result_dir.made_of(), made_of)
+}
+
+/// What the pages say about student and time.
+fn hand_in(row: &Row, zone: &TimeZone) -> HandIn {
+    let local = |time: Timestamp| time.to_zoned(zone.clone()).strftime("%F %T %Z").to_string();
+    let received_at = row.received_at.as_ref().and_then(|time| time.parse().ok());
+    let name = row.name();
+    HandIn {
+        student: if name.is_empty() { row.key.clone() } else { name },
+        received_at: received_at.map(local),
+        late_by: row.lateness.as_ref().and_then(|lateness| lateness.late_by),
+        factor: row.lateness.as_ref().map_or(1.0, |lateness| lateness.factor),
+        points: row.points.unwrap_or(0.0),
+    }
 }
 
 /// Removes the pages of an earlier submission of the same student.

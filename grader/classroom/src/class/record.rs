@@ -13,6 +13,7 @@ use verdict::check::{CheckKind, CheckResult, Evidence, Reason, Verdict};
 use verdict::error::{Error, Result};
 use verdict::output;
 use verdict::report::Report;
+use verdict::sandbox::Level;
 use verdict::submission::{Explanation, IntakeFinding};
 
 /// Version of the format.
@@ -52,6 +53,9 @@ pub struct Record {
     /// as a geometric mean over the scenes of the check `efficiency`. None if any check with that technique fails.
     #[serde(default)]
     pub work: Option<f64>,
+    /// Sandbox in which it was compiled and run; none if it was not.
+    #[serde(default)]
+    pub sandbox: Option<Level>,
     /// BLAKE3 of `report.json`; empty if there is none.
     pub report: String,
 }
@@ -89,6 +93,7 @@ impl Record {
             seconds: report.map_or(0.0, |report| report.cost.build + report.cost.run),
             mistake: report.and_then(|report| report.diagnosis.first()).map(|it| words::title(&it.cause)),
             work: report.and_then(work),
+            sandbox: report.map(|report| report.sandbox.level),
             report: String::new(),
         }
     }
@@ -152,6 +157,12 @@ impl ResultDir {
         Self(out.join("submissions").join(key))
     }
 
+    /// Its path.
+    pub(super) fn path(&self) -> &Path {
+        &self.0
+    }
+
+    /// Path of the report.
     pub(super) fn report(&self) -> PathBuf {
         self.0.join("report.json")
     }

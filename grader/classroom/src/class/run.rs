@@ -3,30 +3,37 @@
 //! Each submission renders with one thread and so occupies one core: times are about those of grading it alone, and no
 //! core waits while rustc or the grader runs. Verdicts depend only on seeds, not on the number of jobs or the order.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::time::{Duration, Instant};
 
+use jiff::tz::TimeZone;
+
+use super::changes::{Detail, change, vanished, vanished_members};
 use super::gradebook::{Row, State};
+use super::identity::team_key;
+use super::inputs::hash_of_inputs;
 use super::progress::{Line, Progress};
 use super::record::{Record, ResultDir};
 use super::similar::{Fingerprint, Starter};
 use super::{Class, Member, pages};
 use crate::marks::Marks;
 use crate::policy::{Lateness, Policy, Receipt, the_one_that_counts};
-use harness::tree_hash::hash_judging;
 use harness::workspace::Workspace;
 use intake::{Intake, Reader, Refusal};
 use judge::grade::{Grader, Options};
-use judge::reference::Oracle;
 use present::streams::note;
 use verdict::error::{Error, Result};
 use verdict::report::Provenance;
+use verdict::sandbox::Level;
 use verdict::submission::IntakeFinding;
 use verdict::text::harmless;
+
+/// Folder in the results in which a preview grades.
+pub(super) const PREVIEW: &str = "preview";
 
 /// Options of grading a class.
 #[derive(Clone, Debug)]
@@ -39,6 +46,8 @@ pub struct RunOptions {
     pub out: PathBuf,
     /// True to grade submissions again that have not changed.
     pub regrade: bool,
+    /// True to replace nothing: results go to the folder `preview` in `out`, and are compared with those in `out`.
+    pub preview: bool,
     /// True to write the pages of each submission, with images.
     pub pages: bool,
     /// Who reads the submissions.
@@ -59,6 +68,10 @@ pub struct Outcome {
     pub unchanged: usize,
     /// Versions and seeds of all grades.
     pub provenance: Provenance,
+    /// Hash of everything that verdicts depend on except the submissions, in hexadecimal.
+    pub inputs: String,
+    /// Weakest sandbox of all submissions; `None` if none was run.
+    pub weakest_sandbox: Option<Level>,
 }
 
 /// State that all workers share.
@@ -102,6 +115,7 @@ struct Done {
     fingerprint: Option<Fingerprint>,
     change: Option<String>,
     graded: bool,
+    level: Option<Level>,
 }
 
 /// Grades a class. `save` is called every few seconds with the rows so far, so that there is always a current table.
@@ -143,6 +157,8 @@ pub fn run(
         graded: 0,
         unchanged: 0,
         provenance: shared.grader.provenance().clone(),
+        inputs: shared.base.to_hex().to_string(),
+        weakest_sandbox: None,
     };
     std::thread::scope(|scope| -> Result<()> {
         let (sender, results) = channel();
@@ -157,6 +173,7 @@ pub fn run(
             outcome.graded += usize::from(done.graded);
             outcome.unchanged += usize::from(!done.graded && done.row.state == State::Graded);
             outcome.changes.extend(done.change);
+            outcome.weakest_sandbox = outcome.weakest_sandbox.into_iter().chain(done.level).min();
             outcome.fingerprints.extend(done.fingerprint.map(|print| (done.row.key.clone(), print)));
             rows[done.index] = Some(done.row);
             if saved.elapsed() > Duration::from_secs(5) {
@@ -168,8 +185,22 @@ pub fn run(
     })?;
     progress.finish();
     outcome.rows = rows.into_iter().flatten().collect();
+    outcome.changes.extend(vanished_members(&options.out, class));
     outcome.changes.sort();
+    outcome.keep_one_fingerprint_of_each_team();
     Ok(outcome)
+}
+
+impl Outcome {
+    /// A team has one submission: its members did not copy from each other.
+    pub(super) fn keep_one_fingerprint_of_each_team(&mut self) {
+        let mut teams = BTreeSet::new();
+        for row in self.rows.iter().filter(|row| !row.team.is_empty()) {
+            if !teams.insert(team_key(&row.team)) {
+                self.fingerprints.remove(&row.key);
+            }
+        }
+    }
 }
 
 /// Grades one submission after another until none is left or the receiver is gone.
@@ -187,23 +218,28 @@ fn work(shared: &Shared<'_>, next: &AtomicUsize, mut line: Line, results: &Sende
 impl Shared<'_> {
     /// Grades one member of the class and makes its row. Errors become part of the row.
     fn settle(&self, index: usize, member: &Member, line: &mut Line) -> Done {
-        let result_dir = ResultDir::new(&self.options.out, &member.key);
+        let mut result_dir = ResultDir::new(&self.options.out, &member.key);
         let before = result_dir.load();
+        if self.options.preview {
+            result_dir = ResultDir::new(&self.options.out.join(PREVIEW), &member.key);
+        }
         // A fault of the grader in one submission must not cost the others theirs.
         let attempt =
             catch_unwind(AssertUnwindSafe(|| self.attempt(member, &result_dir, before.as_ref(), line)))
                 .unwrap_or_else(|_| Err(Error::Harness("the grader panicked".to_owned())));
         match attempt {
             Ok(Some(settled)) => {
-                self.pages(member, &result_dir, &settled.record);
                 let Settled { record, fingerprint, lateness, receipt, graded } = settled;
-                let change = before.as_ref().and_then(|before| change(&member.key, before, &record));
-                let row =
-                    Row::of_record(member, &record, &self.marks, lateness, receipt.as_ref(), self.policy);
-                Done { index, row, fingerprint, change, graded }
+                let detail = if self.options.preview { Detail::Checks } else { Detail::Points };
+                let change = before.as_ref().and_then(|before| change(&member.key, before, &record, detail));
+                let row = self.marked(Row::of_record(member, &record, lateness, receipt.as_ref()));
+                self.pages(&result_dir, &record, &row);
+                Done { index, row, fingerprint, change, graded, level: record.sandbox }
             }
             Ok(None) => {
-                Done { index, row: Row::missing(member), fingerprint: None, change: None, graded: false }
+                let change = before.as_ref().map(|before| vanished(&member.key, before));
+                let row = self.marked(Row::missing(member));
+                Done { index, row, fingerprint: None, change, graded: false, level: None }
             }
             Err(error) => {
                 let trouble = IntakeFinding { code: "harness".to_owned(), message: error.to_string() };
@@ -214,27 +250,31 @@ impl Shared<'_> {
                         let lateness = self
                             .policy
                             .map(|policy| policy.judge(&member.names(), receipt, &record.checksums));
-                        Row {
-                            kept: true,
-                            reason: Some(trouble),
-                            ..Row::of_record(member, &record, &self.marks, lateness, receipt, self.policy)
-                        }
+                        let row = self.marked(Row::of_record(member, &record, lateness, receipt));
+                        Row { kept: true, reason: Some(trouble), ..row }
                     }
                     None => Row::harness(member, trouble),
                 };
-                Done { index, row, fingerprint: None, change: None, graded: false }
+                Done { index, row, fingerprint: None, change: None, graded: false, level: None }
             }
         }
     }
 
+    /// A row with its marks and penalty.
+    fn marked(&self, mut row: Row) -> Row {
+        row.apply(&self.marks, self.policy.map(Policy::rules));
+        row
+    }
+
     /// Writes the pages of a submission. Errors are only printed, since pages change no row.
-    fn pages(&self, member: &Member, result_dir: &ResultDir, record: &Record) {
+    fn pages(&self, result_dir: &ResultDir, record: &Record, row: &Row) {
+        let zone = self.policy.map_or(TimeZone::UTC, |policy| policy.zone().clone());
         let made = match (self.options.pages, record.report.is_empty()) {
-            (true, false) => pages::make(result_dir, record, &self.marks, &self.student_file),
+            (true, false) => pages::make(result_dir, record, &self.marks, row, &zone, &self.student_file),
             _ => pages::clear(result_dir),
         };
         if let Err(error) = made {
-            note(format_args!("warning: the page of {}: {error}", harmless(&member.key)));
+            note(format_args!("warning: the page of {}: {error}", harmless(&row.key)));
         }
     }
 
@@ -334,38 +374,6 @@ impl Shared<'_> {
         hasher.update(self.base.as_bytes()).update(source.as_bytes());
         hasher.finalize().to_hex().to_string()
     }
-}
-
-/// Hash of everything that verdicts depend on except the submission: framework, judging crates, solution, rubric,
-/// scenes, references and seed. The late policy is not part of it.
-fn hash_of_inputs(workspace: &Workspace, grader: &Grader, options: &Options) -> Result<blake3::Hash> {
-    let mut hasher = blake3::Hasher::new();
-    // The rubric's tasks are named below: its policy changes no verdict.
-    let provenance = Provenance { rubric: String::new(), ..grader.provenance().clone() };
-    hasher.update(format!("{provenance:?}").as_bytes());
-    hasher.update(format!("{:?} {:?}", grader.rubric().tasks, options.only).as_bytes());
-    hasher.update(format!("{:?}", grader.oracle().map(Oracle::hash)).as_bytes());
-    hash_judging(workspace, &mut hasher)?;
-    Ok(hasher.finalize())
-}
-
-/// Describes what has changed in a score; `None` if nothing has.
-fn change(key: &str, before: &Record, after: &Record) -> Option<String> {
-    let show = |points: &Option<f64>| points.map_or_else(|| "–".to_owned(), |points| points.to_string());
-    let mut parts: Vec<String> = after
-        .tasks
-        .iter()
-        .filter_map(|(task, points)| {
-            let old = before.tasks.get(task).unwrap_or(&None);
-            (old != points).then(|| format!("{task} {} → {}", show(old), show(points)))
-        })
-        .collect();
-    let code =
-        |record: &Record| record.reason.as_ref().map_or_else(String::new, |reason| reason.code.clone());
-    if code(before) != code(after) {
-        parts.push(format!("reason {:?} → {:?}", code(before), code(after)));
-    }
-    (!parts.is_empty()).then(|| format!("{key}: {}", parts.join(", ")))
 }
 
 /// True if a folder contains results of an earlier run.

@@ -134,13 +134,23 @@ impl Policy {
 
     /// Points that count, rounded as the rules say.
     pub fn points(&self, raw: f64, lateness: &Lateness) -> f64 {
-        if lateness.factor == 1.0 {
-            return raw;
-        }
-        let step = self.rules.round_to;
-        // 0.8 is no binary number: what is meant to lie in the middle must not fall below it.
-        ((raw * lateness.factor / step + 0.5 + 1e-9).floor() * step).min(raw)
+        points_after(&self.rules, raw, lateness)
     }
+
+    /// Rules of the rubric.
+    pub fn rules(&self) -> &Rules {
+        &self.rules
+    }
+}
+
+/// Points that count of so many raw points, rounded as the rules say.
+pub(crate) fn points_after(rules: &Rules, raw: f64, lateness: &Lateness) -> f64 {
+    if lateness.factor == 1.0 {
+        return raw;
+    }
+    let step = rules.round_to;
+    // 0.8 is no binary number: what is meant to lie in the middle must not fall below it.
+    ((raw * lateness.factor / step + 0.5 + 1e-9).floor() * step).min(raw)
 }
 
 fn hours(hours: u32) -> SignedDuration {
@@ -154,9 +164,7 @@ fn key(student: &str) -> String {
 impl Lateness {
     /// How late it is, as in "1 h 05 min 00 s"; empty if it is not.
     pub fn late_by_text(&self) -> String {
-        self.late_by.map_or_else(String::new, |seconds| {
-            format!("{} h {:02} min {:02} s", seconds / 3600, seconds / 60 % 60, seconds % 60)
-        })
+        self.late_by.map_or_else(String::new, present::words::duration)
     }
 }
 

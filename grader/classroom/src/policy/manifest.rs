@@ -7,6 +7,7 @@ use jiff::Timestamp;
 use jiff::tz::TimeZone;
 
 use super::{Lateness, Policy, Standing, parse_received};
+use crate::class::roster::{EMAIL, IDENTIFIER, LOGIN, participant};
 use crate::table::Table;
 use verdict::error::{Error, Result};
 
@@ -26,12 +27,23 @@ pub struct Receipt {
 }
 
 /// All receipts of a class. The columns of the file are `student` (login, number, e-mail address, or the name of the
-/// submission's folder), `received_at`, and optionally `md5`, `md5_received_at`, `path` and `source`. A student who sent several
-/// submissions has several rows.
+/// submission's folder), `received_at`, and optionally `md5`, `md5_received_at`, `path`, `source` and `team`. A student who
+/// sent several submissions has several rows. Tables of Moodle and ILIAS that tell when somebody handed in are manifests,
+/// too.
 #[derive(Clone, Debug, Default)]
 pub struct Manifest {
     receipts: BTreeMap<String, Vec<Receipt>>,
+    teams: BTreeMap<String, String>,
 }
+
+/// Columns with the time of submission in Moodle's grading worksheet and in ILIAS's table of an exercise.
+const RECEIVED: &[&str] = &[
+    "received_at",
+    "Last modified (submission)",
+    "Zuletzt geändert (Abgabe)",
+    "Last Submission",
+    "Letzte Abgabe",
+];
 
 impl Manifest {
     /// Reads the file. Times without an offset are in `zone`.
@@ -42,17 +54,43 @@ impl Manifest {
         let table = Table::load(path)?;
         let column = |name: &str| table.column(&[name]);
         let missing = |name: &str| Error::file(path, format!("there is no column `{name}`"));
-        let student = column("student").ok_or_else(|| missing("student"))?;
-        let received_at = column("received_at").ok_or_else(|| missing("received_at"))?;
+        let own = column("student");
+        let student =
+            own.or_else(|| [LOGIN, EMAIL, IDENTIFIER, &["ID"]].iter().find_map(|names| table.column(names)));
+        let student = student.ok_or_else(|| missing("student"))?;
+        let received_at = table.column(RECEIVED).ok_or_else(|| missing("received_at"))?;
+        let team = column("team");
         let (md5, md5_received_at, file) = (column("md5"), column("md5_received_at"), column("path"));
         let source = column("source");
         let mut manifest = Self::default();
         for row in &table.rows {
             let blame = |message: String| Error::Input(format!("{}:{}: {message}", path.display(), row.line));
-            let cell =
-                |column: Option<usize>| column.map(|column| row.cell(column)).filter(|text| !text.is_empty());
-            let time =
-                |column| cell(column).map(|text| parse_received(text, zone)).transpose().map_err(blame);
+            // Moodle writes `-` for "never".
+            let cell = |column: Option<usize>| {
+                column.map(|column| row.cell(column)).filter(|text| !matches!(*text, "" | "-"))
+            };
+            let time = |column: Option<usize>| {
+                let in_column = |message: String| {
+                    let name = column.map_or("", |column| table.header[column].as_str());
+                    blame(format!("column `{name}`: {message}"))
+                };
+                cell(column).map(|text| parse_received(text, zone)).transpose().map_err(in_column)
+            };
+            let name = row.cell(student);
+            let name = participant(name).unwrap_or(name).to_lowercase();
+            if let Some(team) = cell(team) {
+                manifest.teams.insert(name.clone(), team.to_owned());
+            }
+            if own.is_none() && cell(Some(received_at)).is_none() {
+                // A table of everybody: this one handed in nothing.
+                continue;
+            }
+            if name.is_empty() {
+                return Err(blame(format!(
+                    "column `{}` is empty: write whose submission it is",
+                    table.header[student]
+                )));
+            }
             let md5 = cell(md5).map(str::to_lowercase);
             if md5.as_ref().is_some_and(|md5| md5.len() != 32 || !md5.bytes().all(|b| b.is_ascii_hexdigit()))
             {
@@ -65,9 +103,14 @@ impl Manifest {
                 path: cell(file).unwrap_or_default().to_owned(),
                 source: cell(source).map(str::to_owned),
             };
-            manifest.receipts.entry(row.cell(student).to_lowercase()).or_default().push(receipt);
+            manifest.receipts.entry(name).or_default().push(receipt);
         }
         Ok(manifest)
+    }
+
+    /// Teams by the names of students, in lower case.
+    pub fn teams(&self) -> &BTreeMap<String, String> {
+        &self.teams
     }
 
     /// Names of all students in it, in lower case.

@@ -183,11 +183,12 @@ pub(super) fn to_mark(page: &ClassPage<'_>) -> Markup {
     html! {
         @for task in page.rubric.tasks.iter().filter(|task| task.manual) {
             @let missing: Vec<&Row> = page.rows.iter()
-                .filter(|row| row.state == State::Graded && row.tasks.get(&task.id).copied().flatten().is_none()).collect();
+                .filter(|row| row.state == State::Graded || !row.explanations.is_empty())
+                .filter(|row| row.tasks.get(&task.id).copied().flatten().is_none()).collect();
             h2 { "To be marked: " (task.id) " " (task.title) }
             @if missing.is_empty() { p { "all done" } } @else {
                 p { (words::count(missing.len(), "submission")) " without a mark. "
-                    code { "cargo grader mark SUBMISSION " (task.id) " POINTS --comment=\"…\" --out=" (page.out.display()) }
+                    code { "cargo grader mark STUDENT " (task.id) " POINTS --comment=\"…\" --out=" (page.out.display()) }
                     ", then " code { "--resume" } "." }
                 details {
                     summary { "who" }
