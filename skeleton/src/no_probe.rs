@@ -24,15 +24,23 @@ impl ScriptedBsdf {
         match *self {}
     }
 
-    pub(crate) fn f(&self) -> Rgb {
-        match *self {}
-    }
-
-    pub(crate) fn pdf(&self) -> f32 {
-        match *self {}
-    }
-
     pub(crate) fn is_delta(&self) -> bool {
+        match *self {}
+    }
+
+    pub(crate) fn samples_delta(&self) -> bool {
+        match *self {}
+    }
+
+    pub(crate) fn samples_nothing(&self) -> bool {
+        match *self {}
+    }
+
+    pub(crate) fn sampled(&self) -> (Rgb, f32) {
+        match *self {}
+    }
+
+    pub(crate) fn of_direction(&self, _: Vec3, _: Vec3, _: Vec3) -> (Rgb, f32) {
         match *self {}
     }
 }
@@ -43,6 +51,14 @@ impl ScriptedLight {
     }
 
     pub(crate) fn pdf_area(&self) -> f32 {
+        match *self {}
+    }
+
+    pub(crate) fn pdf_area_on_hit(&self) -> f32 {
+        match *self {}
+    }
+
+    pub(crate) fn is_bright_from(&self, _: Vec3) -> bool {
         match *self {}
     }
 }

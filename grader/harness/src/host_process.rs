@@ -14,8 +14,8 @@ use std::time::{Duration, Instant};
 use arty::integrator::Settings;
 use arty::scene::SceneDescription;
 use host::protocol::{
-    ProbeJob, ProbedPath, RenderJob, Rendered, ReplayJob, Replayed, Request, Response, UNCONFINED,
-    write_message,
+    AuditJob, AuditedRun, ProbeJob, ProbedPath, RenderJob, Rendered, ReplayJob, Replayed, Request, Response,
+    UNCONFINED, write_message,
 };
 use verdict::check::Fault;
 use verdict::error::{Error, Result};
@@ -202,6 +202,18 @@ impl HostProcess {
                     && paths.iter().all(|paths| paths.len() as u64 == job.samples);
                 if is_whole { Ok(paths) } else { Err(malformed("the number of scenes or paths is wrong")) }
             }
+            other => Err(unexpected(other)),
+        }
+    }
+
+    /// Makes the runs of an audit within `time`. Their numbers are not checked.
+    pub fn audit(&mut self, job: &AuditJob, time: Duration) -> Answer<Vec<AuditedRun>> {
+        if !job.is_valid() {
+            return Err(Error::Harness("an audit's run cannot be made".to_owned()).into());
+        }
+        match self.ask(&Request::Audit(Cow::Borrowed(job)), time.min(self.job_time))? {
+            Response::Audited(runs) if runs.len() == job.runs.len() => Ok(runs),
+            Response::Audited(_) => Err(malformed("the number of runs is wrong")),
             other => Err(unexpected(other)),
         }
     }

@@ -9,6 +9,8 @@
 //!
 //! Without the feature `serve`, the crate contains only the protocol, for the grader.
 
+#[cfg(feature = "serve")]
+mod audit;
 pub mod confine;
 #[cfg(feature = "serve")]
 mod constructor;

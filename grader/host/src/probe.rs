@@ -30,7 +30,12 @@ pub(crate) fn all(key: &Key, constructor: Constructor, job: &ProbeJob) -> Vec<Ve
 }
 
 fn strata(job: &ProbeJob, sample: u64) -> probe::Strata {
-    probe::Strata { path: sample as u32, count: job.samples as u32, seed: job.seed as u32 }
+    probe::Strata {
+        path: sample as u32,
+        count: job.samples as u32,
+        seed: job.seed as u32,
+        with_extreme: false,
+    }
 }
 
 fn path(
@@ -58,13 +63,23 @@ fn build(scripted: &ScriptedScene) -> Scene {
                 f: Rgb::gray(it.f),
                 pdf: it.pdf,
                 is_delta: it.is_delta,
+                at_target: None,
+                at_viewer: None,
+                sampling: probe::ScriptedSampling::Target,
             })
         })
         .collect();
     let lights: Vec<_> = scripted
         .lights
         .iter()
-        .map(|light| light.map(|it| probe::ScriptedLight { point: it.point, pdf_area: it.pdf_area }))
+        .map(|light| {
+            light.map(|it| probe::ScriptedLight {
+                point: it.point,
+                pdf_area: it.pdf_area,
+                pdf_area_on_hit: it.pdf_area,
+                bright_from: None,
+            })
+        })
         .collect();
     scene.set_script(&bsdfs, &lights);
     scene

@@ -1,4 +1,3 @@
-//!
 //! The protocol between the grader and the process that runs a submission.
 //!
 //! A message is its length in bytes (`u32`, little endian) followed by that many bytes of postcard.
@@ -10,6 +9,10 @@ use arty::integrator::Settings;
 use arty::math::Vec3;
 use arty::scene::SceneDescription;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
+
+mod audit;
+
+pub use audit::{AuditBsdf, AuditJob, AuditLight, AuditRun, AuditSampling, AuditScene, AuditedRun};
 
 /// Maximum length of a message in bytes. Scenes are the longest messages: a million triangles take about 60 MB.
 pub const MAX_MESSAGE: u32 = 512 << 20;
@@ -25,6 +28,8 @@ pub enum Request<'a> {
     Probe(Cow<'a, ProbeJob>),
     /// Trace one path of a scene and record every call.
     Replay(ReplayJob),
+    /// Measure factors of the estimator in scripted scenes.
+    Audit(Cow<'a, AuditJob>),
 }
 
 /// Replays one path of a picture.
@@ -172,6 +177,8 @@ pub enum Response {
         /// The reason.
         message: String,
     },
+    /// The results of an audit's runs.
+    Audited(Vec<AuditedRun>),
 }
 
 /// One path of a [`ProbeJob`].

@@ -12,7 +12,7 @@ use arty::scene::Scene;
 use crate::confine::tighten;
 use crate::constructor::Constructor;
 use crate::protocol::{MAX_MESSAGE, Request, Response, Switches, UNCONFINED, read_message, write_message};
-use crate::{probe, render, replay, stdio};
+use crate::{audit, probe, render, replay, stdio};
 
 /// Answers requests until the grader closes the pipe. Exit code 3 if the pipe breaks or this is not the first call.
 pub fn serve(constructor: Constructor) -> ExitCode {
@@ -76,6 +76,10 @@ fn answer_all(
             {
                 Response::Rejected { message: format!("{} paths cannot be stratified", job.samples) }
             }
+            Request::Audit(job) if !job.is_valid() => {
+                Response::Rejected { message: "an audit's run cannot be made".to_owned() }
+            }
+            Request::Audit(job) => guarded(|| Response::Audited(audit::all(key, constructor, &job))),
             Request::Probe(job) => guarded(|| Response::Probed(probe::all(key, constructor, &job))),
         };
         write_message(output, &response)?;

@@ -4,6 +4,7 @@
 //! [`statistics`]; [`mod@plan`] says where each check applies; [`mod@grade`] turns verdicts into points; [`diagnosis`]
 //! finds likely causes. [`convergence`] measures error against run time, which does not affect points.
 
+pub mod audit;
 pub mod checks;
 pub mod convergence;
 pub mod diagnosis;

@@ -2,11 +2,12 @@
 //!
 //! [`mutants`] grades right and wrong variants of the solution and [`compare`] tells two such sets of grades apart,
 //! [`calibration`] measures false alarms and power, [`limits`] measures the numerical range of the renderer,
-//! [`figures`] renders the figures of the sheet, and [`handout`] makes what students get.
+//! [`facts`] learns which facts fail for which mistake, [`figures`] renders the figures of the sheet, and [`handout`] makes what students get.
 
 pub mod calibration;
 pub mod commands;
 pub mod compare;
+pub mod facts;
 pub mod figures;
 pub mod handout;
 pub mod limits;

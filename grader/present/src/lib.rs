@@ -17,4 +17,4 @@ pub mod words;
 
 pub use profile::print_profile;
 pub use progress::Progress;
-pub use terminal::{Detail, print_sum, print_summary, summary_since};
+pub use terminal::{Detail, print_audit, print_sum, print_summary, summary_since};

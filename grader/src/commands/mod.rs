@@ -1,6 +1,7 @@
 //! The commands of the program: one file a command. This file parses the command line and hands each command what it
 //! needs.
 
+mod audit;
 mod class;
 mod class_tables;
 mod completions;
@@ -48,6 +49,7 @@ struct Arguments {
 enum Command {
     Grade(grade::Arguments),
     Hint(hint::Arguments),
+    Audit(audit::Arguments),
     Doctor(doctor::Arguments),
     Class(class::Arguments),
     Pack(pack::Arguments),
@@ -80,6 +82,7 @@ impl Arguments {
         match &self.command {
             Command::Grade(arguments) => grade::run(arguments, &workspace()?),
             Command::Hint(arguments) => hint::run(arguments, &workspace()?),
+            Command::Audit(arguments) => audit::run(arguments, &workspace()?),
             Command::Doctor(_) => doctor::run(&workspace()?),
             Command::Class(arguments) => class::run(arguments, &workspace()?),
             Command::Pack(arguments) => pack::run(arguments, &workspace()?),

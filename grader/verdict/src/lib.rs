@@ -4,6 +4,7 @@
 //! [`submission`]; every page, table and export is made from it. [`edition`] removes what students must not see before
 //! any format is written.
 
+pub mod audit;
 pub mod check;
 pub mod convergence;
 pub mod edition;

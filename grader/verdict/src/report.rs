@@ -5,6 +5,7 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::audit::{Audit, Fact};
 use crate::check::{CheckId, CheckKind, CheckResult, Numerics, Verdict, Visibility, WhyNot};
 use crate::convergence::Convergence;
 use crate::error::{Error, Result};
@@ -34,6 +35,9 @@ pub struct Report {
     pub checks: Vec<CheckResult>,
     /// Checks that do not apply to their scenes, whatever the submission.
     pub skipped: Vec<SkippedCheck>,
+    /// Facts about every factor of the estimator; `None` if they were not measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub audit: Option<Audit>,
     /// Likely causes, most likely first.
     pub diagnosis: Vec<Diagnosis>,
     /// Samples that are not radiance (NaN, infinite or negative), over all checks.
@@ -217,6 +221,8 @@ pub enum Cause {
         /// Hint for the student.
         hint: String,
     },
+    /// A fact of the audit that fails. It is true whatever the mistake is.
+    FailedFact(Fact),
     /// No known mistake fits, or several do.
     Unknown {
         /// True if several fit.
@@ -253,6 +259,7 @@ impl Cause {
     pub fn id(&self) -> &str {
         match self {
             Self::Known { id, .. } => id,
+            Self::FailedFact(_) => "failed-fact",
             Self::Unknown { .. } => "unknown",
             Self::NothingToCompile => "nothing-to-compile",
             Self::DoesNotCompile => "does-not-compile",

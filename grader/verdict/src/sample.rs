@@ -121,6 +121,7 @@ pub fn report(text: &str) -> Report {
             vec![SourceFinding { line: 1, what: text(), why: text() }],
         ),
         provenance: Provenance { toolchain: text(), assignment: text(), ..Provenance::default() },
+        audit: None,
         convergence: None,
         images: Vec::new(),
         hand_in: None,

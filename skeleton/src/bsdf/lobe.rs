@@ -30,13 +30,22 @@ impl Lobe {
         }
     }
 
+    /// True if its samples come from `sample_delta`.
+    #[inline]
+    pub(super) fn samples_delta(&self) -> bool {
+        match self {
+            Self::Scripted(script) => script.samples_delta(),
+            _ => self.is_delta(),
+        }
+    }
+
     #[inline]
     pub(super) fn eval(&self, geometry: &LocalGeometry, wi: Vec3) -> Rgb {
         match self {
             Self::Diffuse { albedo } => diffuse::eval(*albedo),
             Self::Phong(phong) => phong.eval(geometry, wi),
             Self::Mirror { .. } | Self::Glass(_) => Rgb::BLACK,
-            Self::Scripted(script) => script.eval(),
+            Self::Scripted(script) => script.eval(geometry, wi),
         }
     }
 
@@ -46,7 +55,7 @@ impl Lobe {
             Self::Diffuse { .. } => diffuse::pdf(geometry, wi),
             Self::Phong(phong) => phong.pdf(geometry, wi),
             Self::Mirror { .. } | Self::Glass(_) => 0.0,
-            Self::Scripted(script) => script.pdf(),
+            Self::Scripted(script) => script.pdf(geometry, wi),
         }
     }
 
@@ -57,7 +66,7 @@ impl Lobe {
             Self::Diffuse { .. } => Some(diffuse::sample(geometry, sampler)),
             Self::Phong(phong) => Some(phong.sample(geometry, sampler)),
             Self::Mirror { .. } | Self::Glass(_) => None,
-            Self::Scripted(script) => (!script.is_delta()).then_some(script.wi),
+            Self::Scripted(script) => script.sample_direction(),
         }
     }
 

@@ -183,7 +183,7 @@ impl Bsdf {
             Some(_) if sampler.draw() < self.first_probability => (&self.first, self.first_probability),
             Some(second) => (second, 1.0 - self.first_probability),
         };
-        if lobe.is_delta() {
+        if lobe.samples_delta() {
             let mut sample = lobe.sample_delta(&self.geometry, sampler)?;
             sample.pdf *= probability;
             return Some(sample);

@@ -8,7 +8,7 @@ use crate::probe::ScriptedBsdf;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ScriptedLobe {
     /// The only direction that is sampled.
-    pub(super) wi: Vec3,
+    wi: Vec3,
     script: ScriptedBsdf,
 }
 
@@ -24,22 +24,34 @@ impl ScriptedLobe {
         self.script.is_delta()
     }
 
+    /// True if its samples are those of a delta lobe.
     #[inline]
-    pub(super) fn eval(&self) -> Rgb {
-        if self.is_delta() { Rgb::BLACK } else { self.script.f() }
+    pub(super) fn samples_delta(&self) -> bool {
+        self.script.samples_delta()
     }
 
     #[inline]
-    pub(super) fn pdf(&self) -> f32 {
-        if self.is_delta() { 0.0 } else { self.script.pdf() }
+    pub(super) fn eval(&self, geometry: &LocalGeometry, wi: Vec3) -> Rgb {
+        self.script.of_direction(wi, self.wi, geometry.wo).0
+    }
+
+    #[inline]
+    pub(super) fn pdf(&self, geometry: &LocalGeometry, wi: Vec3) -> f32 {
+        self.script.of_direction(wi, self.wi, geometry.wo).1
+    }
+
+    #[inline]
+    pub(super) fn sample_direction(&self) -> Option<Vec3> {
+        (!self.samples_delta() && !self.script.samples_nothing()).then_some(self.wi)
     }
 
     #[inline]
     pub(super) fn sample_delta(&self, geometry: &LocalGeometry) -> Option<BsdfSample> {
-        self.is_delta().then(|| BsdfSample {
+        let (f, pdf) = self.script.sampled();
+        (self.samples_delta() && !self.script.samples_nothing()).then(|| BsdfSample {
             wi: self.wi,
-            f: self.script.f(),
-            pdf: self.script.pdf(),
+            f,
+            pdf,
             cos: geometry.normal.dot(self.wi).abs(),
             is_delta: true,
         })

@@ -82,12 +82,17 @@ impl Light {
     #[inline]
     pub fn sample_direct(&self, from: Vec3, sampler: &mut Sampler) -> Option<DirectSample> {
         probe::count_light_sample();
-        let sample = match (&self.shape, &self.script) {
+        let mut sample = match (&self.shape, &self.script) {
             (Shape::Point(light), _) => light.sample_direct(from),
             (Shape::Spot(light), _) => light.sample_direct(from),
             (Shape::Triangle(light), None) => light.sample_direct(from, sampler),
             (Shape::Triangle(light), Some(script)) => script.sample_direct(light, from),
         };
+        if let (Some(sample), Some(script)) = (&mut sample, &self.script)
+            && !script.is_bright_from(from)
+        {
+            sample.emitted = Rgb::BLACK;
+        }
         probe::record(|| recorded::sample_direct(self, from, sample));
         sample
     }
@@ -100,7 +105,7 @@ impl Light {
         Some(Emission {
             light: self,
             radiance: light.radiance,
-            pdf_area: self.script.map_or(light.pdf_area(), |script| script.pdf_area()),
+            pdf_area: self.script.map_or(light.pdf_area(), |script| script.pdf_area_on_hit()),
             cos_light: light.cos_towards(wo),
         })
     }

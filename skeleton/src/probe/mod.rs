@@ -5,7 +5,7 @@
 //! place: the same names, zero-sized and without effect, so that the renderer's code needs no conditional compilation.
 //!
 //! A **script** replaces numbers and keeps the geometry of a scene: a scripted light has one known sample point with a
-//! known density; a scripted BSDF has the same value and density in every direction and samples one known direction.
+//! known density; a scripted BSDF has known values and densities and samples one known direction, or nothing.
 //! Anything that an integrator derives from positions and normals therefore stays correct. Scripts are stateless and
 //! draw no random numbers, so that all random numbers drawn are the integrator's own.
 //!
@@ -27,7 +27,7 @@ pub use count::{Counts, take_counts};
 pub(crate) use count::{count_light_sample, count_ray, count_shadow_ray};
 pub(crate) use record::record;
 pub use record::{Call, Recording, Value, record_print, start_recording, take_recording};
-pub use script::{ScriptedBsdf, ScriptedLight};
+pub use script::{ScriptedBsdf, ScriptedLight, ScriptedSampling, ScriptedValue};
 pub(crate) use strata::stratified;
 pub use strata::{Strata, set_strata};
 

@@ -16,6 +16,10 @@ pub struct Strata {
     pub count: u32,
     /// Seed of the permutations.
     pub seed: u32,
+    /// True if the last stratum is reduced to the largest number below 1, so that a decision with a probability close to
+    /// 1 goes the other way once. This biases the numbers: it shows that there is a decision, not how often it goes
+    /// which way.
+    pub with_extreme: bool,
 }
 
 thread_local! {
@@ -36,11 +40,17 @@ pub(crate) fn stratified(number: f32) -> f32 {
     strata.place(taken, number)
 }
 
+/// The largest number below 1 that a sampler returns.
+const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
+
 impl Strata {
     fn place(&self, dimension: u32, number: f32) -> f32 {
-        let place = (self.stratum(dimension) as f32 + number) / self.count as f32;
+        let stratum = self.stratum(dimension);
+        if self.with_extreme && stratum + 1 == self.count {
+            return BELOW_ONE;
+        }
         // Rounding must not reach 1.
-        place.min(1.0 - f32::EPSILON / 2.0)
+        ((stratum as f32 + number) / self.count as f32).min(BELOW_ONE)
     }
 
     /// A permutation of the paths, different for each dimension: odd factors and xor-shifts are invertible.
@@ -67,7 +77,9 @@ mod tests {
     fn each_stratum_has_one_path_in_a_different_order_per_dimension() {
         for count in [1, 2, 4, 64, 4096] {
             let order = |dimension: u32| -> Vec<u32> {
-                (0..count).map(|path| Strata { path, count, seed: 7 }.stratum(dimension)).collect()
+                (0..count)
+                    .map(|path| Strata { path, count, seed: 7, with_extreme: false }.stratum(dimension))
+                    .collect()
             };
             for dimension in 0..5 {
                 let mut seen = order(dimension);
@@ -79,8 +91,14 @@ mod tests {
     }
 
     #[test]
+    fn one_path_has_the_extreme_number() {
+        let place = |path| Strata { path, count: 64, seed: 7, with_extreme: true }.place(2, 0.5);
+        assert_eq!((0..64).filter(|&path| place(path) == BELOW_ONE).count(), 1);
+    }
+
+    #[test]
     fn numbers_are_below_one_and_unchanged_without_strata() {
-        let strata = Strata { path: 0, count: 1 << 20, seed: 3 };
+        let strata = Strata { path: 0, count: 1 << 20, seed: 3, with_extreme: false };
         for dimension in 0..1000 {
             let number = strata.place(dimension, 1.0 - f32::EPSILON / 2.0);
             assert!((0.0..1.0).contains(&number), "{number}");

@@ -11,7 +11,8 @@ impl Scene {
     }
 
     /// Scripts materials and lights: one entry for each material of the description, and one for each light in the
-    /// order of [`Scene::lights`]; `None` leaves it as it is. Scripts of lights without an area have no effect.
+    /// order of [`Scene::lights`]; `None` leaves it as it is. Of the script of a light
+    /// without an area, only `bright_from` has an effect.
     pub fn set_script(&mut self, bsdfs: &[Option<ScriptedBsdf>], lights: &[Option<ScriptedLight>]) {
         // The surface shared by all triangle lights, if there are any, comes before the materials.
         let first = self.surfaces.len().saturating_sub(bsdfs.len());

@@ -32,6 +32,7 @@ pub(super) fn unexpected(response: Response) -> JobError {
         Response::Replayed(_) => malformed("it sent a path that was not requested"),
         Response::Probed(_) => malformed("it sent paths that were not requested"),
         Response::Rendered(_) => malformed("it sent a rendering that was not requested"),
+        Response::Audited(_) => malformed("it sent an audit that was not requested"),
     }
 }
 

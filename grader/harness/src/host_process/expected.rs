@@ -32,6 +32,10 @@ const LENGTH: u64 = 10;
 /// Kinds of answers, by their first byte.
 const RENDERED: u8 = 2;
 const PROBED: u8 = 3;
+const AUDITED: u8 = 7;
+
+/// Maximum bytes of one run of an audit: six numbers, and four counts of up to five bytes.
+const AUDITED_RUN: u64 = 6 * 8 + 4 * 5;
 
 impl Expected {
     /// The message that a process has started.
@@ -54,6 +58,10 @@ impl Expected {
                 let bytes = job.samples.saturating_mul(PATH).saturating_add(LENGTH).saturating_mul(scenes);
                 Self::of(bytes, Some((PROBED, scenes)))
             }
+            Request::Audit(job) => {
+                let runs = job.runs.len() as u64;
+                Self::of(runs.saturating_mul(AUDITED_RUN), Some((AUDITED, runs)))
+            }
             Request::Replay(_) => Self::of(CALL * CALLS, None),
         }
     }
@@ -71,7 +79,7 @@ impl Expected {
         let right = match counted {
             Some((_, parts)) => length(&bytes[1..]) == Some(parts),
             // Those with parts that nobody asked for.
-            None => !matches!(kind, Some(RENDERED | PROBED)),
+            None => !matches!(kind, Some(RENDERED | PROBED | AUDITED)),
         };
         if !right {
             return Err(io::Error::new(io::ErrorKind::InvalidData, "the number of its parts is wrong"));
@@ -97,7 +105,9 @@ mod tests {
     use std::borrow::Cow;
 
     use arty::integrator::{Settings, Technique};
-    use host::protocol::{ProbeJob, ProbedPath, RenderJob, Rendered, Switches, write_message};
+    use host::protocol::{
+        AuditJob, AuditRun, AuditedRun, ProbeJob, ProbedPath, RenderJob, Rendered, Switches, write_message,
+    };
 
     use super::*;
 
@@ -150,6 +160,19 @@ mod tests {
             read(expected, &Response::Probed(Vec::new())).expect("it is read"),
             Some(Response::Probed(Vec::new()))
         );
+        let settings = job(1).settings;
+        let run =
+            AuditRun { scene: 0, settings, seed: 1, emission_on_hit: true, paths: 1, with_extreme: false };
+        let audit = AuditJob { scenes: Vec::new(), runs: vec![run; 1000] };
+        let expected = Expected::answer_to(&Request::Audit(Cow::Owned(audit)));
+        let longest = AuditedRun {
+            mean: [1.0; 3],
+            spread: [1.0; 3],
+            rays: [u32::MAX; 2],
+            light_samples: [u32::MAX; 2],
+        };
+        let response = Response::Audited(vec![longest; 1000]);
+        assert_eq!(read(expected, &response).expect("it is read"), Some(response));
         let words = Response::Panicked { message: "\u{10000}".repeat(3000) };
         assert_eq!(read(Expected::start(), &words).expect("it is read"), Some(words));
     }
@@ -161,6 +184,8 @@ mod tests {
         assert!(error(&rendered(vec![Vec::new(); 9000])).contains("parts"));
         assert!(error(&Response::Probed(vec![Vec::new(); 9000])).contains("parts"));
         assert!(error(&rendered(vec![vec![[0.0; 3]; 4000]; 3])).contains("bytes"));
+        let run = AuditedRun { mean: [0.0; 3], spread: [0.0; 3], rays: [0; 2], light_samples: [0; 2] };
+        assert!(read(Expected::start(), &Response::Audited(vec![run])).is_err());
         let path = ProbedPath { radiance: [0.0; 3], rays: 0, shadow_rays: 0, light_samples: 0 };
         assert!(read(Expected::start(), &Response::Probed(vec![vec![path]])).is_err());
     }

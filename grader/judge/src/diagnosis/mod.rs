@@ -12,12 +12,14 @@
 mod confusion;
 mod direct;
 mod distance;
+mod facts;
 mod observation;
 mod rank;
 mod seen;
 mod signatures;
 
 pub use confusion::{Case, Confusion};
+pub use facts::{FactRow, LearntFacts};
 pub use observation::{CheckObservations, CheckState, Number, ObservationVector};
 pub use signatures::Signatures;
 
@@ -41,6 +43,8 @@ pub const UNKNOWN: &str = "unknown";
 pub struct Catalogue {
     causes: Vec<Cause>,
     signatures: Signatures,
+    /// Failed facts of the known mistakes.
+    facts: LearntFacts,
 }
 
 /// A known mistake.
@@ -55,6 +59,10 @@ pub struct Cause {
     pub title: String,
     /// Hint for the student.
     pub hint: String,
+    /// Beginnings of the names of facts that are about the factor which is wrong, such as `light-sample/distance`. They
+    /// only measure how good statements are.
+    #[serde(default)]
+    pub facts: Vec<String>,
 }
 
 #[derive(Deserialize)]
@@ -71,6 +79,7 @@ impl Catalogue {
     /// If one of the files is invalid, or a variant named by a cause has no signature.
     pub fn load(assignment: &Path) -> Result<Self> {
         let (words, measured) = (Self::words_file(assignment), Self::signatures_file(assignment));
+        let facts = LearntFacts::file(assignment);
         let catalogue = Self {
             causes: if words.is_file() {
                 arty::yaml::read::<CausesFile>(&words)?.0.causes
@@ -78,6 +87,7 @@ impl Catalogue {
                 Vec::new()
             },
             signatures: if measured.is_file() { Signatures::load(&measured)? } else { Signatures::default() },
+            facts: if facts.is_file() { LearntFacts::load(&facts)? } else { LearntFacts::default() },
         };
         for cause in &catalogue.causes {
             for variant in &cause.variants {
@@ -105,7 +115,7 @@ impl Catalogue {
 
     /// The same causes with other signatures.
     pub fn with(&self, signatures: Signatures) -> Self {
-        Self { causes: self.causes.clone(), signatures }
+        Self { signatures, ..self.clone() }
     }
 
     /// All known mistakes, in the order of the file.
@@ -126,6 +136,9 @@ impl Catalogue {
             return Vec::new();
         }
         let mut found = direct::causes(report, source, starter);
+        if found.iter().all(|direct| !direct.is_everything()) {
+            found.extend(self.of_facts(report, &found));
+        }
         let explained = |technique: Technique| found.iter().any(|direct| direct.explains(technique));
         let vector = ObservationVector::of(report).without(explained);
         if found.iter().all(|direct| !direct.is_everything()) {
@@ -144,6 +157,27 @@ impl Catalogue {
         }
         found.truncate(MAX_CAUSES);
         found.into_iter().map(|found| found.diagnosis).collect()
+    }
+
+    /// Failed facts of the audit, and the known mistake that has exactly these. They explain the failures of both
+    /// techniques: what only looks similar could mislead.
+    fn of_facts(&self, report: &Report, direct: &[ExplainedCause]) -> Vec<ExplainedCause> {
+        let Some(audit) = &report.audit else { return Vec::new() };
+        let is_explained = |technique: Technique| direct.iter().any(|direct| direct.explains(technique));
+        let mut statements = facts::statements(audit);
+        statements.retain(|fact| !is_explained(fact.technique));
+        let explains = vec![Technique::Nee, Technique::Mis];
+        let found = |cause: report::Cause| ExplainedCause {
+            diagnosis: Diagnosis { cause, confidence: 1.0, seen: None },
+            explains: explains.clone(),
+        };
+        let mut all: Vec<ExplainedCause> =
+            statements.into_iter().map(|fact| found(report::Cause::FailedFact(fact.clone()))).collect();
+        let failed: Vec<String> = audit.failed().map(verdict::audit::Fact::id).collect();
+        if let Some(Cause { id, title, hint, .. }) = self.facts.exact(self, &failed).cloned() {
+            all.insert(1.min(all.len()), found(report::Cause::Known { id, title, hint }));
+        }
+        all
     }
 
     fn compared(&self, report: &Report, vector: &ObservationVector) -> Vec<ExplainedCause> {

@@ -9,17 +9,20 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Instant;
 
+use crate::audit::audit;
 use crate::checks::{GradeContext, SceneWithReference};
 use crate::diagnosis::Catalogue;
 use crate::plan;
 use crate::reference::Oracle;
 use crate::statistics::sequential::{LOOKS, SCREENING_LEVEL};
+use arty::integrator::Technique;
 use harness::build::{Framework, SubmissionProgram, compile};
 use harness::host_process::HostProcess;
 use harness::sandbox::{Limits, Machine};
 use harness::scan::{self, scan};
 use harness::trial;
 use harness::workspace::Workspace;
+use verdict::audit::Audit;
 use verdict::check::{CheckResult, Numerics};
 use verdict::error::Result;
 use verdict::report::{
@@ -237,6 +240,7 @@ impl Grader {
             numerics: numerics_of(&results.checks),
             checks: results.checks,
             skipped: results.skipped,
+            audit: results.audit,
             diagnosis: Vec::new(),
             cost: Cost { framework: self.framework_time, build, run, total },
             sandbox: results.sandbox,
@@ -253,7 +257,7 @@ impl Grader {
     fn initial_results(&self, submission: &Submission) -> RunResults {
         let possible = Machine::here().layers();
         let sandbox = Sandbox::new(possible, possible, scan(&submission.source));
-        RunResults { checks: Vec::new(), skipped: self.skipped.clone(), sandbox }
+        RunResults { checks: Vec::new(), skipped: self.skipped.clone(), sandbox, audit: None }
     }
 
     /// Runs the selected checks that apply to their scenes.
@@ -267,6 +271,11 @@ impl Grader {
         let host = HostProcess::start(program, self.options.threads)?.layers();
         results.sandbox = Sandbox::new(program.layers, host, std::mem::take(&mut results.sandbox.findings));
         trial::require(&results.sandbox, self.options.limits.min_level)?;
+        // A part of a grade answers a question of its own.
+        let needs_facts = self.rubric.checks().any(|(_, spec)| spec.technique != Technique::Bsdf);
+        if self.options.only.is_empty() && needs_facts {
+            results.audit = Some(audit(program, self.options.seed)?);
+        }
         let context = GradeContext {
             program,
             oracle: self.oracle.as_ref(),
@@ -333,6 +342,7 @@ struct RunResults {
     checks: Vec<CheckResult>,
     skipped: Vec<SkippedCheck>,
     sandbox: Sandbox,
+    audit: Option<Audit>,
 }
 
 fn numerics_of(checks: &[CheckResult]) -> Numerics {

@@ -2,6 +2,7 @@
 
 mod calibrate;
 mod compare;
+mod facts;
 mod figures;
 mod gradescope;
 mod handout;
@@ -29,9 +30,11 @@ struct Arguments {
 enum Command {
     Calibrate(calibrate::Arguments),
     Compare(compare::Arguments),
+    Facts(facts::Arguments),
     Figures(figures::Arguments),
     Gradescope(gradescope::Arguments),
     Handout(handout::Arguments),
+    LeaveOneOut(facts::LeaveOneOut),
     Limits(limits::Arguments),
     Mutants(mutants::Arguments),
     Reference(reference::Arguments),
@@ -43,9 +46,11 @@ pub fn run() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Facts(arguments) => facts::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Gradescope(arguments) => gradescope::run(&arguments),
         Command::Handout(arguments) => handout::run(&arguments),
+        Command::LeaveOneOut(arguments) => facts::run_leave_one_out(&arguments),
         Command::Limits(arguments) => limits::run(&arguments),
         Command::Mutants(arguments) => mutants::run(&arguments),
         Command::Reference(arguments) => reference::run(&arguments),

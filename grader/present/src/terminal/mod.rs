@@ -16,9 +16,11 @@ use crate::words::{self, count};
 use lines::paragraph;
 
 mod all;
+mod audit;
 mod lines;
 mod next;
 
+pub use audit::print_audit;
 pub(crate) use lines::{loud, one_line, paint};
 
 /// How much of a report is shown.

@@ -13,6 +13,8 @@ pub fn heading(diagnosis: &Diagnosis) -> String {
     let title = title(&diagnosis.cause);
     match diagnosis.cause {
         Cause::Unknown { .. } => title,
+        // It is measured, not concluded.
+        Cause::FailedFact(_) => format!("Measured: {title}"),
         _ if diagnosis.confidence < 0.995 => {
             format!("Likely cause ({:.0} % sure): {title}", 100.0 * diagnosis.confidence)
         }
@@ -24,6 +26,7 @@ pub fn heading(diagnosis: &Diagnosis) -> String {
 pub fn title(cause: &Cause) -> String {
     let text = match cause {
         Cause::Known { title, .. } => title,
+        Cause::FailedFact(fact) => return super::fact::fact(fact),
         Cause::Unknown { several_fit: true } => {
             "Cause unknown: the results fit several known mistakes. More checks may narrow it down."
         }
@@ -49,7 +52,7 @@ pub fn title(cause: &Cause) -> String {
 pub fn hint(cause: &Cause) -> &str {
     match cause {
         Cause::Known { hint, .. } => hint,
-        Cause::Unknown { .. } => "",
+        Cause::Unknown { .. } | Cause::FailedFact(_) => "",
         Cause::NothingToCompile => {
             "Submit your render_pt.rs by itself, or in a folder or an archive. `cargo grader pack` creates such an archive."
         }
@@ -89,7 +92,7 @@ pub fn hint(cause: &Cause) -> &str {
 /// The observation that speaks for a cause; empty if there is none, or the title says it.
 pub fn seen(report: &Report, diagnosis: &Diagnosis) -> String {
     match &diagnosis.cause {
-        Cause::Unknown { .. } => String::new(),
+        Cause::Unknown { .. } | Cause::FailedFact(_) => String::new(),
         Cause::NothingToCompile => {
             let refusal = report.submission.refusal.as_ref();
             refusal.map_or_else(String::new, |it| format!("{}: {}", it.code, first_line(&it.message)))

@@ -6,6 +6,7 @@
 mod cause;
 mod check;
 mod command;
+pub mod fact;
 mod fault;
 mod hint;
 mod means;
@@ -26,6 +27,7 @@ pub use cause::{heading, hint, seen, title};
 pub(crate) use check::variances;
 pub use check::{about, explanation, remarks, remarks_with_replay};
 pub use command::{repeat_command, replay_command, replay_of};
+pub use fact::audit_rows;
 pub use fault::{fault, numerics};
 pub use hint::{hint_on_causes, hint_on_check, hint_on_paths};
 pub(crate) use next::standing;

@@ -1,0 +1,91 @@
+//! The audit: facts about every factor of an estimator, measured in scripted scenes.
+//!
+//! In a scripted scene ([`chain`]) every answer is known. One answer is changed at a time, and the change of the result
+//! shows its exponent ([`contributions`], [`weights`]); which paths contribute at all is known exactly, too ([`words`]).
+//! What is random ([`decisions`]) is measured with stratified numbers. Facts about means hold for every correct program;
+//! facts about the form of weights become remarks where a correct program may differ.
+
+mod chain;
+mod contributions;
+mod decisions;
+mod facts;
+mod measure;
+mod weights;
+mod words;
+
+use std::time::{Duration, Instant};
+
+use arty::integrator::Technique;
+use harness::build::SubmissionProgram;
+use harness::host_process::HostProcess;
+use harness::job::JobError;
+use verdict::audit::{Audit, Fact};
+use verdict::check::Fault;
+use verdict::error::Result;
+
+use measure::Prober;
+
+/// Time limit of one job, which takes a few milliseconds.
+const JOB_TIME: Duration = Duration::from_secs(5);
+
+/// Number of hit points at which contributions and weights are measured.
+const HITS: u32 = 3;
+
+/// A group of facts that are measured together.
+type Group = Box<dyn Fn(&mut Prober<'_>) -> std::result::Result<Vec<Fact>, JobError>>;
+
+/// Measures all facts about a submission. It uses one core.
+///
+/// # Errors
+/// If the grader itself fails. Faults of the submission are part of the result.
+pub fn audit(program: &SubmissionProgram, seed: u64) -> Result<Audit> {
+    let start = Instant::now();
+    let mut audit = Audit::default();
+    let mut process = HostProcess::start(program, 1)?;
+    for group in groups() {
+        let mut prober = Prober { process: &mut process, seed: seed as u32, time: JOB_TIME };
+        match group(&mut prober) {
+            Ok(facts) => audit.facts.extend(facts),
+            Err(JobError::Harness(error)) => return Err(error),
+            Err(JobError::Submission(fault)) => {
+                let ends = matches!(fault, Fault::Timeout(_) | Fault::TooSlow(_) | Fault::Crash(_));
+                audit.fault.get_or_insert(fault);
+                if ends {
+                    break;
+                }
+            }
+        }
+    }
+    audit.seconds = start.elapsed().as_secs_f64();
+    Ok(audit)
+}
+
+/// All groups, in the order in which their failed facts should be read.
+fn groups() -> Vec<Group> {
+    let (bsdf, nee, mis) = (Technique::Bsdf, Technique::Nee, Technique::Mis);
+    let mut groups: Vec<Group> = Vec::new();
+    for hit in 1..=HITS {
+        groups.push(Box::new(move |it| contributions::hit(it, bsdf, hit)));
+    }
+    for technique in [nee, mis] {
+        for hit in 1..=HITS {
+            groups.push(Box::new(move |it| contributions::light_sample(it, technique, hit)));
+            groups.push(Box::new(move |it| contributions::point_light(it, technique, hit)));
+            if technique == nee {
+                groups.push(Box::new(move |it| contributions::hit_with_nee(it, hit)));
+            } else {
+                groups.push(Box::new(move |it| weights::facts(it, hit)));
+                groups.push(Box::new(move |it| contributions::hit(it, technique, hit)));
+            }
+        }
+        groups.push(Box::new(move |it| decisions::selection(it, technique)));
+    }
+    for technique in [bsdf, nee, mis] {
+        groups.push(Box::new(move |it| words::facts(it, technique)));
+        groups.push(Box::new(move |it| decisions::roulette(it, technique)));
+    }
+    for technique in [nee, mis] {
+        groups.push(Box::new(move |it| decisions::scales(it, technique)));
+    }
+    groups
+}
