@@ -88,13 +88,16 @@ impl Measured {
         Self { value: run.mean[0], all: run.mean, error: 0.0, errors: [0.0; 3] }
     }
 
-    fn of_sets(runs: &[AuditedRun]) -> Self {
+    /// The mean of sets of so many paths.
+    fn of_sets(runs: &[AuditedRun], paths: u32) -> Self {
         let count = runs.len() as f64;
         let all: [f64; 3] =
             std::array::from_fn(|channel| runs.iter().map(|run| run.mean[channel]).sum::<f64>() / count);
         let errors: [f64; 3] = std::array::from_fn(|channel| {
             let squares = runs.iter().map(|run| (run.mean[channel] - all[channel]).powi(2)).sum::<f64>();
-            (squares / (count - 1.0) / count).sqrt()
+            // Strata round the probability of a decision, perhaps in all sets alike.
+            let spread = runs.iter().map(|run| run.spread[channel]).sum::<f64>() / count;
+            (squares / (count - 1.0) / count).sqrt().max(spread / (2.0 * f64::from(paths)))
         });
         Self { value: all[0], all, error: errors[0], errors }
     }
@@ -144,7 +147,7 @@ impl Prober<'_> {
         let runs = measured.iter().zip(0..).flat_map(sets).collect();
         let sets = self.process.audit(&AuditJob { scenes, runs }, self.time)?;
         for (&index, runs) in measured.iter().zip(sets.chunks(SETS as usize)) {
-            results[index] = Some(Measured::of_sets(runs));
+            results[index] = Some(Measured::of_sets(runs, effort.set));
         }
         Ok(results)
     }

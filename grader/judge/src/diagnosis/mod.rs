@@ -180,7 +180,12 @@ impl Catalogue {
         all
     }
 
+    /// Known mistakes whose pictures look alike. If all facts hold, a mistake that makes a fact fail is none of them.
     fn compared(&self, report: &Report, vector: &ObservationVector) -> Vec<ExplainedCause> {
+        let is_possible = |cause: &Cause| {
+            let holds = |variant: &String| self.facts.row(variant).is_none_or(|row| row.failed.is_empty());
+            report.audit.is_none() || cause.variants.iter().any(holds)
+        };
         let found = |candidate: &rank::Candidate<'_>| {
             let Cause { id, title, hint, .. } = candidate.cause.clone();
             let seen = seen::seen(self, report, vector, candidate);
@@ -190,7 +195,8 @@ impl Catalogue {
                 explains: Vec::new(),
             }
         };
-        rank::rank(self, vector).iter().map(found).collect()
+        let ranking = rank::rank(self, vector);
+        ranking.iter().filter(|candidate| is_possible(candidate.cause)).map(found).collect()
     }
 
     /// Identifiers of the causes that [`Self::diagnose`] finds by comparison for an observation vector.

@@ -32,8 +32,10 @@ pub(super) fn seen(
     };
     let nee_is_right = vector.of_technique(Technique::Nee).all_pass();
     let best = |passes: bool| {
+        // What is too noisy to judge shows nothing.
         let of_state = |check: &&CheckResult| {
-            vector.0.get(&check.id).is_some_and(|seen| (seen.state == CheckState::Pass) == passes)
+            let state = vector.0.get(&check.id).map(|seen| seen.state);
+            state.is_some_and(|state| state != CheckState::Unclear && (state == CheckState::Pass) == passes)
         };
         let checks = report.checks.iter().filter(of_technique).filter(of_state);
         let mut scored: Vec<(&CheckResult, f64)> =
@@ -48,7 +50,10 @@ pub(super) fn seen(
     let wrong = best(false).map(|(check, _)| check);
     let fallback = || {
         let mut failed = report.checks.iter().filter(of_technique);
-        failed.find(|check| vector.0.get(&check.id).is_some_and(|seen| seen.state != CheckState::Pass))
+        failed.find(|check| {
+            let state = vector.0.get(&check.id).map(|seen| seen.state);
+            state.is_some_and(|state| !matches!(state, CheckState::Pass | CheckState::Unclear))
+        })
     };
     let wrong = wrong.or_else(fallback)?.id.clone();
     let right = best(true).filter(|(_, score)| *score >= MIN_SEPARATION).map(|(check, _)| check.id.clone());

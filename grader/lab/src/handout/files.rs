@@ -41,7 +41,7 @@ const TEST_FILES: [&str; 2] = ["tests.rs", "test_scenes.rs"];
 const OF_ASSIGNMENT: [&str; 4] = ["sheet.md", "rubric.yml", "starter.rs", "figures"];
 
 /// Files of the assignment that are included if they exist: causes of mistakes and their signatures.
-const OPTIONAL: [&str; 2] = ["causes.yml", "signatures.json"];
+const OPTIONAL: [&str; 3] = ["causes.yml", "facts.json", "signatures.json"];
 
 /// Files of the assignment that are moved, if they exist.
 const MOVED: [(&str, &str); 3] = [

@@ -3,6 +3,7 @@
 //! Everything that comes from the report is escaped by the template; style, script, plots and numbers of pictures are
 //! our own. A content security policy forbids the page to load anything, and to run any script but its own.
 
+mod audit;
 mod causes;
 pub mod document;
 mod files;
@@ -58,6 +59,7 @@ fn page_with(report: &Report, pictures: &[Picture], edition: Edition, script: &s
             }
             (next::section(report))
             (findings::tasks(report))
+            (audit::section(report))
             @let is_public = |picture: &&Picture| Visibility::of_scene(&picture.scene) == Visibility::Public;
             @let shown = pictures.iter().filter(|picture| edition == Edition::Tutor || is_public(picture));
             (viewer::section(report, &shown.collect::<Vec<_>>()))
