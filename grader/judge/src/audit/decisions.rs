@@ -152,7 +152,7 @@ fn reflecting_light(prober: &mut Prober<'_>, technique: Technique) -> Result<Fac
     let seen = prober.measure_all(&[dark, shining])?;
     let about = About { term: Term::LightSample, technique, place: Place::Paths };
     let exact = chain.light_sample();
-    if !(seen[0].value > NOTHING * exact) {
+    if seen[0].value.is_nan() || seen[0].value <= NOTHING * exact {
         return Ok(about.not_measured(Factor::ReflectedByLight, 1.0, verdict::audit::Why::NothingArrives));
     }
     let noise = NOISE * seen[1].error.hypot(seen[0].error) / exact;

@@ -60,7 +60,7 @@ impl About {
         by: f64,
         exact: f64,
     ) -> Fact {
-        if !(before.value > exact * NOTHING) {
+        if before.value.is_nan() || before.value <= exact * NOTHING {
             return self.not_measured(factor, expected, Why::NothingArrives);
         }
         let exponent = (after.value / before.value).ln() / by;
