@@ -66,6 +66,7 @@ impl Report {
             Cause::Panics | Cause::TodoLeft => check.reason == Reason::Crash,
             Cause::DoesNotFinish { .. } => check.reason == Reason::Timeout || !check.was_run(),
             Cause::ConstantFactor { .. } => check.id.technique == Technique::Nee,
+            Cause::FailedFact(fact) => check.id.technique == fact.technique,
             Cause::MisNotBegun => check.id.technique == Technique::Mis,
             Cause::Known { .. } => {
                 !matches!(check.reason, Reason::Crash | Reason::Timeout)

@@ -19,7 +19,8 @@ pub(super) fn section(report: &Report) -> Markup {
             p { b { (next.check.id) } ": " (prose(&words::explanation(next.check))) "." }
             @if let Some(diagnosis) = next.cause {
                 p { (prose(&words::heading(diagnosis))) }
-                p { "Hint: " (prose(words::hint(&diagnosis.cause))) }
+                @let hint = words::hint(&diagnosis.cause);
+                @if !hint.is_empty() { p { "Hint: " (prose(hint)) } }
             }
             p { code.command { @match words::replay_of(next.check, &report.submission.path) {
                 Some(replay) => (replay),

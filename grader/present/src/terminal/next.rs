@@ -44,7 +44,10 @@ fn write_next(
     }
     if let Some(diagnosis) = next.cause {
         paragraph(out, "  ", &words::heading(diagnosis), width)?;
-        paragraph(out, "  ", &format!("hint: {}", words::hint(&diagnosis.cause)), width)?;
+        let hint = words::hint(&diagnosis.cause);
+        if !hint.is_empty() {
+            paragraph(out, "  ", &format!("hint: {hint}"), width)?;
+        }
     }
     // Not broken, so that it can be copied.
     match words::replay_of(check, &report.submission.path) {

@@ -29,7 +29,10 @@ pub fn hint_on_causes(report: &Report, next: &Next<'_>) -> Vec<String> {
         .diagnosis
         .iter()
         .filter(is_of_task)
-        .flat_map(|diagnosis| [heading(diagnosis), format!("hint: {}", hint(&diagnosis.cause))])
+        .flat_map(|diagnosis| {
+            let hint = Some(hint(&diagnosis.cause)).filter(|hint| !hint.is_empty());
+            std::iter::once(heading(diagnosis)).chain(hint.map(|hint| format!("hint: {hint}")))
+        })
         .collect();
     if lines.is_empty() {
         let alone = "No known mistake fits. Look at one path: which factor of its contribution is not what you expect?";
