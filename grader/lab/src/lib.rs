@@ -1,12 +1,13 @@
 //! The laboratory: measures the grader itself, for staff.
 //!
 //! [`mutants`] grades right and wrong variants of the solution and [`compare`] tells two such sets of grades apart,
-//! [`calibration`] measures false alarms and power, [`limits`] measures the numerical range of the renderer,
+//! [`calibration`] measures false alarms and power, [`coverage`] how often intervals of error curves hold the truth, [`limits`] measures the numerical range of the renderer,
 //! [`figures`] renders the figures of the sheet, and [`handout`] makes what students get.
 
 pub mod calibration;
 pub mod commands;
 pub mod compare;
+pub mod coverage;
 pub mod figures;
 pub mod handout;
 pub mod limits;

@@ -122,6 +122,7 @@ mod tests {
             negative: 0,
             first_anomalies,
             cpu_seconds: 0.0,
+            rays: 0,
         })
     }
 

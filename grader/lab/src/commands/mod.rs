@@ -2,6 +2,7 @@
 
 mod calibrate;
 mod compare;
+mod coverage;
 mod figures;
 mod gradescope;
 mod handout;
@@ -29,6 +30,7 @@ struct Arguments {
 enum Command {
     Calibrate(calibrate::Arguments),
     Compare(compare::Arguments),
+    Coverage(coverage::Arguments),
     Figures(figures::Arguments),
     Gradescope(gradescope::Arguments),
     Handout(handout::Arguments),
@@ -43,6 +45,7 @@ pub fn run() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Coverage(arguments) => coverage::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Gradescope(arguments) => gradescope::run(&arguments),
         Command::Handout(arguments) => handout::run(&arguments),
