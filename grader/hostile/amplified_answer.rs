@@ -45,6 +45,7 @@ impl PathTracer {
             negative: 0,
             first_anomalies: Vec::new(),
             cpu_seconds: 0.0,
+            rays: 0,
         });
         for number in 3..10 {
             let Some(descriptor) = descriptor(number) else { continue };

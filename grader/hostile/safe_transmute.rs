@@ -48,6 +48,7 @@ impl PathTracer {
                 negative: 0,
                 first_anomalies: Vec::new(),
                 cpu_seconds: 0.0,
+                rays: 0,
             };
             let _ = write_message(&mut file, &Response::Rendered(forged));
             let _ = file.flush();

@@ -128,6 +128,11 @@ impl Workspace {
         self.variants().join("calibration.md")
     }
 
+    /// Table of the coverage of convergence measurements.
+    pub fn coverage_table(&self) -> PathBuf {
+        self.variants().join("coverage.md")
+    }
+
     /// Plot of the calibration table.
     pub fn calibration_plot(&self) -> PathBuf {
         self.variants().join("calibration.svg")

@@ -229,6 +229,8 @@ pub struct Rendered {
     pub first_anomalies: Vec<AnomalousSample>,
     /// Processor time of the rendering over all threads, in seconds.
     pub cpu_seconds: f64,
+    /// Number of rays, shadow rays included.
+    pub rays: u64,
 }
 
 impl Rendered {
@@ -239,6 +241,7 @@ impl Rendered {
         self.negative += more.negative;
         self.first_anomalies.extend(more.first_anomalies);
         self.cpu_seconds += more.cpu_seconds;
+        self.rays += more.rays;
     }
 }
 

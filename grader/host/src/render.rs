@@ -3,6 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use arty::film::{Anomaly, Film};
+use arty::probe::{Counts, Key, take_counts};
 use arty::render::render;
 use arty::scene::Scene;
 use cpu_time::ProcessTime;
@@ -15,8 +16,9 @@ use crate::protocol::{AnomalousSample, RenderJob, Rendered};
 const MAX_ANOMALIES: usize = 16;
 
 /// Renders the batches in parallel, each with its own seed and all with one path tracer.
-pub(crate) fn batches(constructor: Constructor, scene: &Scene, job: &RenderJob) -> Rendered {
+pub(crate) fn batches(key: &Key, constructor: Constructor, scene: &Scene, job: &RenderJob) -> Rendered {
     let integrator = constructor(job.settings);
+    take_rays(key);
     let start = ProcessTime::now();
     let films: Vec<(u64, Film)> = job
         .seeds
@@ -40,6 +42,7 @@ pub(crate) fn batches(constructor: Constructor, scene: &Scene, job: &RenderJob) 
         negative: 0,
         first_anomalies: Vec::new(),
         cpu_seconds: start.elapsed().as_secs_f64(),
+        rays: take_rays(key),
     };
     for (seed, film) in films {
         rendered.batches.push(film.pixels().iter().map(|pixel| pixel.mean().to_array()).collect());
@@ -57,4 +60,10 @@ pub(crate) fn batches(constructor: Constructor, scene: &Scene, job: &RenderJob) 
     }
     rendered.first_anomalies.truncate(MAX_ANOMALIES);
     rendered
+}
+
+/// Number of rays that all threads have traced since the last call.
+fn take_rays(key: &Key) -> u64 {
+    let of_thread = |Counts { rays, shadow_rays, .. }: Counts| u64::from(rays) + u64::from(shadow_rays);
+    rayon::broadcast(|_| of_thread(take_counts(key))).into_iter().sum()
 }

@@ -61,7 +61,7 @@ fn answer_all(
                 None => Response::Rejected { message: format!("there is no scene {}", job.scene) },
                 Some(scene) => {
                     scene.set_switches(switches(job.switches));
-                    guarded(|| Response::Rendered(render::batches(constructor, scene, &job)))
+                    guarded(|| Response::Rendered(render::batches(key, constructor, scene, &job)))
                 }
             },
             Request::Replay(job) => match scenes.get_mut(job.scene as usize) {

@@ -24,6 +24,7 @@ fn responses() -> Vec<Vec<u8>> {
         negative: 0,
         first_anomalies: vec![AnomalousSample { seed: 1, x: 2, y: 3, sample: 4, value: [f32::INFINITY; 3] }],
         cpu_seconds: 0.5,
+        rays: 7,
     };
     let path = ProbedPath { radiance: [0.0; 3], rays: 1, shadow_rays: 2, light_samples: 3 };
     let value = || ("wi".to_owned(), vec![0.0, 1.0, f32::NAN]);

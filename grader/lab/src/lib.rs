@@ -1,12 +1,14 @@
 //! The laboratory: measures the grader itself, for staff.
 //!
 //! [`mutants`] grades right and wrong variants of the solution and [`compare`] tells two such sets of grades apart,
-//! [`calibration`] measures false alarms and power, [`limits`] measures the numerical range of the renderer,
-//! [`facts`] learns which facts fail for which mistake, [`figures`] renders the figures of the sheet, and [`handout`] makes what students get.
+//! [`calibration`] measures false alarms and power, [`coverage`] how often intervals of error curves hold the truth,
+//! [`limits`] the numerical range of the renderer, [`facts`] learns which facts fail for which mistake, [`figures`]
+//! renders the figures of the sheet, and [`handout`] makes what students get.
 
 pub mod calibration;
 pub mod commands;
 pub mod compare;
+pub mod coverage;
 pub mod facts;
 pub mod figures;
 pub mod handout;

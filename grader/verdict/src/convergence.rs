@@ -1,14 +1,17 @@
 //! Convergence curves (error against run time) as data: `judge` measures them, `present` shows them.
 //!
 //! Each point of a curve comes from many **separate** renderings of one length, each with its own seed: the points of
-//! one progressive rendering would be correlated. Time is processor time of the submission's process, summed over its
-//! threads. Programs take turns in short jobs, so that other load on the machine affects all of them alike. The first
-//! jobs, which calibrate the lengths, are discarded. Errors are relative to the stored reference, whose own noise is
-//! subtracted; intervals are bootstrapped over renderings (Celarek et al.: "Quantifying the Error of Light Transport
-//! Algorithms", 2019, explains why many short renderings are better). Convergence neither earns nor costs points.
+//! one progressive rendering would be correlated (Celarek et al.: "Quantifying the Error of Light Transport
+//! Algorithms", 2019). Time is processor time of the program's process, summed over its threads: unlike wall time it
+//! does not count the time in which other programs had the processor. Other load still makes it larger, since caches
+//! and the units of a core are shared.
 //!
-//! For an unbiased program the squared error falls as 1/time: a line of slope −1 in a log–log plot. A curve that
-//! flattens shows bias, which no amount of time removes, or random numbers that repeat.
+//! A measurement consists of **blocks**. Each has the same renderings of all lengths and all programs, which take turns
+//! in short jobs, so that a change of the machine's speed affects all programs of a block alike. Intervals are Student's
+//! t over the blocks (delete-one-block jackknife). `cargo lab coverage` measures how often they contain the truth.
+//!
+//! Errors are relative to the stored reference, whose own noise is subtracted. Convergence neither earns nor costs
+//! points.
 
 use arty::integrator::Technique;
 use schemars::JsonSchema;
@@ -57,7 +60,9 @@ pub struct Panel {
     pub target: f64,
     /// Contribution of the reference's own noise to the relative MSE. It has been subtracted.
     pub reference_noise: f64,
-    /// The curves: submissions first, then the solution, then BSDF sampling.
+    /// Name of the curve that efficiency and cost are relative to; `None` if there is none.
+    pub yardstick: Option<String>,
+    /// The curves: submissions first, then those they are compared with, the solution, and BSDF sampling.
     pub curves: Vec<Curve>,
 }
 
@@ -67,6 +72,10 @@ pub struct Panel {
 pub enum Role {
     /// A submission.
     Submission,
+    /// A program that submissions are to be compared with.
+    Rival,
+    /// Measurements from elsewhere: times and errors without intervals.
+    External,
     /// The solution, with the same technique.
     Solution,
     /// BSDF sampling alone.
@@ -85,48 +94,107 @@ pub struct Curve {
     pub technique: Technique,
     /// One point per rendering length, shortest first.
     pub points: Vec<Point>,
-    /// Slope of ln(relative MSE) over ln(seconds), −1 if unbiased. `None` with fewer than four usable points.
+    /// Slope of ln(relative MSE) over ln(samples): −1 if samples are independent and unbiased. Time less its overhead is
+    /// proportional to samples. `None` with fewer than three lengths.
     pub slope: Option<Estimate>,
-    /// Efficiency 1/(relative MSE × seconds) divided by the solution's, over the longer half of the renderings.
+    /// Efficiency 1/(relative MSE × seconds) divided by the yardstick's, over the longer half of the lengths.
     pub efficiency: Option<Estimate>,
-    /// Processor time in seconds to reach the panel's target; `None` if the target was not reached.
-    pub seconds_to_target: Option<f64>,
-    /// Relative squared bias, from all renderings: the part of the relative MSE that does not fall with time.
-    pub relative_bias_squared: Option<Estimate>,
-    /// True if the relative squared bias is at least four bootstrap standard deviations above zero.
-    pub floor: bool,
+    /// Cost of a sample divided by the yardstick's.
+    pub relative_cost: Option<Estimate>,
+    /// Processor time in seconds of a rendering with the panel's target error; `None` if the target was not reached.
+    pub seconds_to_target: Option<Estimate>,
+    /// Time and rays of a rendering as a function of its samples; `None` for [`Role::External`].
+    pub cost: Option<Cost>,
+    /// Result of the test for bias.
+    pub bias: Bias,
+    /// True if few renderings make up most of the error. Then no interval of a mean error is known, nor of the time to
+    /// reach one, and the median is the better summary.
+    pub heavy_tailed: bool,
     /// Number of samples that were NaN or infinite. They count as black.
     pub non_finite: u64,
 }
 
-/// Errors of renderings of one length.
+/// Cost of a rendering: overhead + samples per pixel × cost of one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Cost {
+    /// Processor time that does not depend on the number of samples, in seconds.
+    pub overhead: f64,
+    /// Processor time for each sample per pixel, in seconds.
+    pub seconds: Estimate,
+    /// Rays for each sample per pixel, shadow rays included.
+    pub rays: f64,
+}
+
+/// Result of the judge's test for bias: screening, and confirmation with fresh seeds (see `judge::statistics`).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Bias {
+    /// Not tested here.
+    NotTested,
+    /// No bias was confirmed.
+    NotFound {
+        /// Smallest relative bias of the whole image that the test would have detected, if it is finite.
+        detectable: Option<f64>,
+    },
+    /// A bias was confirmed.
+    Found {
+        /// Its relative mean square over the image: the part of the relative MSE that does not fall with time.
+        relative_squared: f64,
+    },
+}
+
+/// Errors of renderings of one length. Of [`Role::External`], only time and relative MSE are known.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Point {
-    /// Samples per pixel of each rendering.
+    /// Samples per pixel of each rendering; 0 if unknown.
     pub samples: u64,
     /// Number of renderings.
     pub renders: usize,
     /// Processor time of one rendering, in seconds.
     pub seconds: f64,
+    /// Rays of one rendering, shadow rays included; 0 if unknown.
+    pub rays: f64,
     /// Relative MSE: mean of (x − r)² / (r² + 0.01).
     pub relative_mse: Estimate,
+    /// Median of the relative MSEs of single renderings, with an exact interval from order statistics that holds for any
+    /// distribution. Below the mean if tails are heavy.
+    pub median_relative_mse: Option<Estimate>,
     /// Relative MSE without the worst 0.1 % of the pixels of each rendering (at least one pixel).
-    pub trimmed_relative_mse: Estimate,
-    /// MSE: mean of (x − r)², which is squared bias plus variance.
-    pub mse: Estimate,
-    /// Squared bias, averaged over pixels. The estimator is unbiased, so that it may be negative.
-    pub bias_squared: Estimate,
-    /// Variance of one rendering, averaged over pixels.
-    pub variance: Estimate,
+    pub trimmed_relative_mse: Option<Estimate>,
+    /// MSE: mean of (x − r)².
+    pub mse: Option<Estimate>,
 }
 
-/// An estimate with its 95 % bootstrap interval.
+/// An estimate with its 95 % confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Estimate {
     /// The estimate.
     pub value: f64,
-    /// Lower and upper end of the interval.
+    /// Lower and upper end of the interval; both equal to the value if it is unknown.
     pub interval: [f64; 2],
+}
+
+impl Estimate {
+    /// A value whose interval is unknown.
+    pub fn without_interval(value: f64) -> Self {
+        Self { value, interval: [value; 2] }
+    }
+
+    /// True if the interval is known.
+    pub fn has_interval(&self) -> bool {
+        self.interval[0] < self.interval[1]
+    }
+
+    /// The estimate of a positive quantity whose logarithm is estimated.
+    #[must_use]
+    pub fn exp(self) -> Self {
+        Self { value: self.value.exp(), interval: self.interval.map(f64::exp) }
+    }
+
+    /// True if the interval contains the value.
+    pub fn holds(&self, value: f64) -> bool {
+        self.interval[0] <= value && value <= self.interval[1]
+    }
 }
 
 /// Image crops of one panel, rendered in equal time.

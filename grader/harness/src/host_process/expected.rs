@@ -132,6 +132,7 @@ mod tests {
             negative: 0,
             first_anomalies,
             cpu_seconds: 0.0,
+            rays: 0,
         })
     }
 

@@ -36,7 +36,9 @@ pub fn brief(
         target: None,
         seed,
         threads: 1,
-        lengths: 5,
+        lengths: 4,
+        // The checks have tested it.
+        bias: false,
     };
     let mut convergence = measure(workspace, &programs, &options, |_| {})?;
     if solution.is_none() {

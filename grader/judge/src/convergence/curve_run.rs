@@ -2,9 +2,12 @@
 
 use arty::integrator::Settings;
 use arty::sampler::batch_seed;
-use host::protocol::RenderJob;
+use host::protocol::{RenderJob, Rendered};
 
-use super::estimate::Renders;
+use super::bias::MeanProduct;
+use super::plan::{PlannedLevel, levels};
+use super::tally::{Block, Errors, Level, Tally};
+use crate::image_error::{Truth, mse, relative_mse, trimmed_relative_mse};
 use crate::reference::SIZE;
 use harness::host_process::HostProcess;
 use harness::job::apart;
@@ -17,107 +20,92 @@ pub(super) struct CurveRun {
     pub(super) program: usize,
     pub(super) settings: Settings,
     pub(super) seed: u64,
-    pub(super) levels: Vec<RenderLength>,
+    planned: Vec<PlannedLevel>,
+    pub(super) tally: Tally,
+    pub(super) bias_squared: MeanProduct,
     pub(super) non_finite: u64,
+    /// Processor time of a sample per pixel in seconds, as first seen.
+    pub(super) per_sample: f64,
     /// The fault that ended the measurement, if any.
     pub(super) fault: Option<Fault>,
 }
 
-/// Renderings of one length.
-#[derive(Default)]
-pub(super) struct RenderLength {
-    wanted: usize,
-    renders: Renders,
-    /// Processor time of one rendering in seconds, for each job.
-    times: Vec<f64>,
-}
-
-/// Number of rounds that the renderings of each length are divided into.
-pub(super) const ROUNDS: usize = 3;
-
-/// Number of renderings of the greatest length, and maximum of any length.
-const RENDERS: (usize, usize) = (6, 48);
-
-/// Ratio of the number of renderings of a length to that of the next longer one.
-const SHORTER_FACTOR: f64 = 1.5;
-
-/// Approximate minimum and maximum processor time of one rendering, in seconds.
-const RENDER_TIME: (f64, f64) = (0.3e-3, 5.0);
-
-/// Maximum ratio of a length to the next shorter one.
-const MAX_STEP: f64 = 4.0;
+/// Processor time of the last warm-up rendering, in seconds.
+const WARM_UP: f64 = 0.02;
 
 impl CurveRun {
-    /// Warms up, measures the speed, and plans renderings that take the given processor time in total.
+    pub(super) fn new(program: usize, settings: Settings, seed: u64, fault: Option<Fault>) -> Self {
+        Self {
+            program,
+            settings,
+            seed,
+            planned: Vec::new(),
+            tally: Tally::default(),
+            bias_squared: MeanProduct::default(),
+            non_finite: 0,
+            per_sample: 0.0,
+            fault,
+        }
+    }
+
+    /// Warms up, measures the speed, and plans blocks that take the given processor time each.
     pub(super) fn plan(&mut self, process: &mut HostProcess, seconds: f64, lengths: u32) -> Result<()> {
         let mut samples = 1;
-        let per_sample = loop {
-            // These renderings are discarded.
-            let Some((_, time)) = self.job(process, samples, &[batch_seed(self.seed, u64::MAX)])? else {
+        self.per_sample = loop {
+            // These renderings are discarded: they touch memory and caches for the first time.
+            let Some(rendered) = self.job(process, samples, &[batch_seed(self.seed, u64::MAX)])? else {
                 return Ok(());
             };
-            if time > (0.03 * seconds).min(0.02) || samples >= 1 << 20 {
-                break time / samples as f64;
+            if rendered.cpu_seconds > WARM_UP.min(seconds) || samples >= 1 << 20 {
+                break rendered.cpu_seconds / samples as f64;
             }
             samples *= 2;
         };
-        let last = f64::from(lengths.max(2) - 1);
-        let shortest = (RENDER_TIME.0 / per_sample).max(1.0);
-        let plan = |longest: f64| -> Vec<RenderLength> {
-            let step = (longest / shortest).powf(1.0 / last).clamp(1.0, MAX_STEP);
-            let level = |k: u32| {
-                let samples = (longest / step.powf(last - f64::from(k))).round().max(1.0) as u64;
-                let more = SHORTER_FACTOR.powi((lengths - 1 - k) as i32);
-                let wanted = ((RENDERS.0 as f64 * more) as usize).min(RENDERS.1);
-                RenderLength { wanted, renders: Renders { samples, ..Renders::default() }, times: Vec::new() }
-            };
-            let mut levels: Vec<RenderLength> = (0..lengths).map(level).collect();
-            levels.dedup_by_key(|level| level.renders.samples);
-            levels
-        };
-        let seconds_of = |levels: &[RenderLength]| -> f64 {
-            levels.iter().map(|level| level.wanted as f64 * level.renders.samples as f64 * per_sample).sum()
-        };
-        let mut longest = (seconds / RENDERS.0 as f64).min(RENDER_TIME.1) / per_sample;
-        while longest > 1.0 && seconds_of(&plan(longest)) > seconds {
-            longest *= 0.95;
-        }
-        self.levels = plan(longest.max(1.0));
+        self.planned = levels(seconds, self.per_sample, lengths);
+        self.tally.levels =
+            self.planned.iter().map(|level| Level { samples: level.samples, blocks: Vec::new() }).collect();
         Ok(())
     }
 
-    /// Renders one round of one length.
-    pub(super) fn render(&mut self, process: &mut HostProcess, level: usize, round: usize) -> Result<()> {
-        let Some(RenderLength { wanted, renders, .. }) = self.levels.get(level) else { return Ok(()) };
-        let (samples, first) = (renders.samples, renders.images.len());
-        let until = wanted * (round + 1) / ROUNDS;
-        let seeds: Vec<u64> = (first..until)
-            .map(|index| batch_seed(batch_seed(self.seed, level as u64), index as u64))
-            .collect();
-        if seeds.is_empty() {
-            return Ok(());
+    /// Renders one block of one length.
+    pub(super) fn render(
+        &mut self,
+        process: &mut HostProcess,
+        level: usize,
+        block: usize,
+        truth: Truth<'_>,
+    ) -> Result<()> {
+        let Some(&PlannedLevel { samples, renders }) = self.planned.get(level) else { return Ok(()) };
+        let stream = batch_seed(batch_seed(self.seed, level as u64), block as u64);
+        let seeds: Vec<u64> = (0..renders).map(|index| batch_seed(stream, index)).collect();
+        let Some(rendered) = self.job(process, samples, &seeds)? else { return Ok(()) };
+        let mut errors = Vec::with_capacity(seeds.len());
+        for batch in rendered.batches {
+            let image: Vec<[f64; 3]> = batch.into_iter().map(|pixel| pixel.map(f64::from)).collect();
+            errors.push(Errors {
+                relative_mse: relative_mse(&image, truth),
+                trimmed_relative_mse: trimmed_relative_mse(&image, truth),
+                mse: mse(&image, truth),
+            });
+            self.bias_squared.add(block % 2, &image, samples as f64);
         }
-        if let Some((images, seconds)) = self.job(process, samples, &seeds)? {
-            self.levels[level].renders.images.extend(images);
-            self.levels[level].times.push(seconds / seeds.len() as f64);
-        }
+        let (seconds, rays) = (rendered.cpu_seconds, rendered.rays);
+        self.tally.levels[level].blocks.push(Block { errors, seconds, rays });
         Ok(())
     }
 
-    /// Renders images and measures their total processor time; `None` if the program has failed.
+    /// Renders images; `None` if the program has failed.
     fn job(&mut self, process: &mut HostProcess, samples: u64, seeds: &[u64]) -> Result<Option<Rendered>> {
         if self.fault.is_some() {
             return Ok(None);
         }
         let job = RenderJob::new(0, self.settings, [SIZE.0, SIZE.1], seeds.to_vec(), samples);
         match apart(process.render(&job))? {
-            Ok(rendered) => {
+            Ok(mut rendered) => {
                 self.non_finite += rendered.non_finite;
-                let pixels =
-                    |batch: Vec<[f32; 3]>| batch.into_iter().map(|pixel| pixel.map(f64::from)).collect();
-                let images = rendered.batches.into_iter().map(pixels).collect();
                 // A coarse clock must not yield a time of 0.
-                Ok(Some((images, rendered.cpu_seconds.max(1e-9))))
+                rendered.cpu_seconds = rendered.cpu_seconds.max(1e-9);
+                Ok(Some(rendered))
             }
             Err(fault) => {
                 self.fault = Some(fault);
@@ -125,18 +113,4 @@ impl CurveRun {
             }
         }
     }
-
-    /// The renderings, shortest length first.
-    pub(super) fn finish(&mut self) -> Vec<Renders> {
-        let levels = std::mem::take(&mut self.levels).into_iter();
-        let renders = levels.map(|mut level| {
-            // The median over the jobs ignores those that other load on the machine has delayed.
-            level.times.sort_unstable_by(f64::total_cmp);
-            level.renders.seconds = level.times.get(level.times.len() / 2).copied().unwrap_or(0.0);
-            level.renders
-        });
-        renders.collect()
-    }
 }
-
-type Rendered = (Vec<Vec<[f64; 3]>>, f64);

@@ -6,16 +6,17 @@ use arty::integrator::{Settings, Technique};
 use arty::sampler::batch_seed;
 use arty::scene::{Scene, SceneDescription};
 
-use super::curve_run::{CurveRun, ROUNDS};
-use super::estimate::{PointEstimate, estimate, relative_bias_squared};
-use super::summary::{efficiency, rounded, seconds_to, slope};
-use crate::image_error::{Truth, relative_weight};
+use super::bias::{self, looks};
+use super::curve_run::CurveRun;
+use super::panel::{MeasuredCurve, panel};
+use super::plan::blocks;
+use crate::image_error::Truth;
 use crate::reference::{self, ReferenceView};
 use harness::build::SubmissionProgram;
 use harness::host_process::HostProcess;
 use harness::job::apart;
 use harness::workspace::Workspace;
-use verdict::convergence::{Convergence, Curve, NotMeasured, Panel, Role};
+use verdict::convergence::{Bias, Convergence, NotMeasured, Role};
 use verdict::error::{Error, Result};
 use verdict::rubric::{EmissionOnHit, View};
 
@@ -28,7 +29,7 @@ pub struct Options {
     pub techniques: Vec<Technique>,
     /// Processor time budget, in seconds.
     pub seconds: f64,
-    /// Target relative MSE; by default that of the solution in renderings of middle length.
+    /// Target relative MSE; by default that of the yardstick in renderings of middle length.
     pub target: Option<f64>,
     /// Seed of all random numbers.
     pub seed: u64,
@@ -36,6 +37,8 @@ pub struct Options {
     pub threads: usize,
     /// Number of rendering lengths.
     pub lengths: u32,
+    /// True if the means are tested for bias, which takes up to half as much time again.
+    pub bias: bool,
 }
 
 /// A program that is measured.
@@ -141,121 +144,83 @@ fn measure_scene(
             let settings = Settings { technique, max_bounces: scene.max_bounces };
             let seed = batch_seed(options.seed, curve_runs.len() as u64);
             let fault = processes[index].1.as_ref().err().cloned();
-            curve_runs.push(CurveRun {
-                program: index,
-                settings,
-                seed,
-                levels: Vec::new(),
-                non_finite: 0,
-                fault,
-            });
+            curve_runs.push(CurveRun::new(index, settings, seed, fault));
         }
     }
     let share = seconds / curve_runs.len().max(1) as f64;
+    let blocks = blocks(share);
     for curve_run in &mut curve_runs {
-        curve_run.plan(&mut processes[curve_run.program].0, share, options.lengths)?;
+        let process = &mut processes[curve_run.program].0;
+        curve_run.plan(process, share / blocks as f64, options.lengths)?;
     }
-    for round in 0..ROUNDS {
+    for block in 0..blocks {
         for level in 0..options.lengths as usize {
             // Alternate the order, so that a machine that slows down favours no program.
             for place in 0..curve_runs.len() {
-                let index = if round % 2 == 0 { place } else { curve_runs.len() - 1 - place };
+                let index = if (block + level) % 2 == 0 { place } else { curve_runs.len() - 1 - place };
                 let curve_run = &mut curve_runs[index];
-                curve_run.render(&mut processes[curve_run.program].0, level, round)?;
+                curve_run.render(&mut processes[curve_run.program].0, level, block, scene.truth())?;
             }
-            on_round(
-                (round * options.lengths as usize + level + 1) as f64
-                    / (ROUNDS * options.lengths as usize) as f64,
-            );
         }
+        on_round((block + 1) as f64 / blocks as f64);
     }
-    drop(processes);
-    evaluate(scene, programs, options, curve_runs, into);
+    let mut measured = Vec::new();
+    for mut curve_run in curve_runs {
+        let process = &mut processes[curve_run.program].0;
+        let bias =
+            if options.bias { scene.bias(&mut curve_run, process, 0.5 * share)? } else { Bias::NotTested };
+        measured.extend(scene.curve(programs, options, curve_run, bias, into));
+    }
+    for &technique in &options.techniques {
+        let settings = (technique, scene.max_bounces);
+        into.panels.push(panel(scene.name.clone(), settings, &scene.view, options.target, &measured));
+    }
     Ok(())
 }
 
-/// A curve with the replicates that are needed to compare it with others.
-struct MeasuredCurve {
-    curve: Curve,
-    levels: Vec<PointEstimate>,
-}
+impl MeasuredScene {
+    /// Tests a curve for bias, in about this processor time if none is suspected.
+    fn bias(&self, curve_run: &mut CurveRun, process: &mut HostProcess, seconds: f64) -> Result<Bias> {
+        let expected = self.view.expected(curve_run.settings.technique);
+        let squared = curve_run.bias_squared.relative(self.truth());
+        let (Some(expected), Some(squared), None) = (expected, squared, &curve_run.fault) else {
+            return Ok(Bias::NotTested);
+        };
+        let looks = looks(seconds, curve_run.per_sample);
+        match apart(bias::test(process, &expected, curve_run.settings, curve_run.seed, looks, squared))? {
+            Ok(bias) => Ok(bias),
+            Err(fault) => {
+                curve_run.fault = Some(fault);
+                Ok(Bias::NotTested)
+            }
+        }
+    }
 
-fn evaluate(
-    scene: &MeasuredScene,
-    programs: &[MeasuredProgram<'_>],
-    options: &Options,
-    curve_runs: Vec<CurveRun>,
-    into: &mut Convergence,
-) {
-    let truth = scene.truth();
-    let mut measured = Vec::new();
-    for mut curve_run in curve_runs {
+    /// The curve of a run; `None`, and listed as not measured, if the program failed.
+    fn curve(
+        &self,
+        programs: &[MeasuredProgram<'_>],
+        options: &Options,
+        curve_run: CurveRun,
+        bias: Bias,
+        into: &mut Convergence,
+    ) -> Option<MeasuredCurve> {
         let MeasuredProgram { name, role, .. } = &programs[curve_run.program];
+        let technique = curve_run.settings.technique;
         if let Some(fault) = &curve_run.fault {
+            let several = options.techniques.len() > 1 && *role != Role::Baseline;
             into.left_out.push(NotMeasured {
-                program: format!("{name}, {}", curve_run.settings.technique),
-                scene: scene.name.clone(),
+                program: if several { format!("{name}, {technique}") } else { name.clone() },
+                scene: self.name.clone(),
                 why: fault.to_string(),
             });
-            continue;
+            return None;
         }
-        let renders = curve_run.finish();
-        let levels: Vec<PointEstimate> =
-            renders.iter().filter_map(|renders| estimate(renders, truth, options.seed)).collect();
-        let bias = relative_bias_squared(&renders, truth, options.seed);
-        let curve = Curve {
-            name: match (*role, scene.point_lights) {
-                // BSDF sampling cannot hit point lights, so that this curve flattens.
-                (Role::Baseline, 1..) => format!("{name} (misses point lights)"),
-                _ => name.clone(),
-            },
-            role: *role,
-            technique: curve_run.settings.technique,
-            points: levels.iter().map(|level| level.point.clone()).collect(),
-            slope: slope(&levels),
-            efficiency: None,
-            seconds_to_target: None,
-            relative_bias_squared: bias.map(|(estimate, _)| estimate),
-            floor: bias.is_some_and(|(estimate, deviation)| estimate.value > 4.0 * deviation),
-            non_finite: curve_run.non_finite,
+        let name = match (*role, self.point_lights) {
+            // BSDF sampling cannot hit point lights, so that this curve flattens.
+            (Role::Baseline, 1..) => format!("{name} (misses point lights)"),
+            _ => name.clone(),
         };
-        measured.push(MeasuredCurve { curve, levels });
-    }
-    for &technique in &options.techniques {
-        into.panels.push(panel(scene, technique, options.target, &measured));
-    }
-}
-
-fn panel(
-    scene: &MeasuredScene,
-    technique: Technique,
-    target: Option<f64>,
-    measured: &[MeasuredCurve],
-) -> Panel {
-    let belongs = |measured: &&MeasuredCurve| {
-        measured.curve.technique == technique || measured.curve.role == Role::Baseline
-    };
-    let shown: Vec<&MeasuredCurve> = measured.iter().filter(belongs).collect();
-    let solution = shown.iter().find(|measured| measured.curve.role == Role::Solution);
-    let middle = solution.or(shown.first()).map_or(0.0, |measured| {
-        let points = &measured.curve.points;
-        points.get(points.len() / 2).map_or(0.0, |point| point.relative_mse.value)
-    });
-    let target = target.unwrap_or_else(|| rounded(middle));
-    let curve = |measured: &&MeasuredCurve| Curve {
-        efficiency: solution.and_then(|solution| efficiency(&measured.levels, &solution.levels)),
-        seconds_to_target: seconds_to(target, &measured.curve.points),
-        ..measured.curve.clone()
-    };
-    let ReferenceView { mean, variance_of_mean, .. } = &scene.view;
-    let noise = mean.iter().flatten().zip(variance_of_mean.iter().flatten());
-    let noise = noise.map(|(&mean, variance)| relative_weight(mean) * variance).sum::<f64>();
-    Panel {
-        scene: scene.name.clone(),
-        technique,
-        max_bounces: scene.max_bounces,
-        target,
-        reference_noise: noise / (3 * mean.len()).max(1) as f64,
-        curves: shown.iter().map(curve).collect(),
+        Some(MeasuredCurve::new(name, (*role, technique), curve_run.tally, bias, curve_run.non_finite))
     }
 }

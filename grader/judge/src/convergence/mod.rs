@@ -4,12 +4,17 @@
 //!
 //! Convergence neither earns nor costs points.
 
+mod bias;
 mod brief;
 mod crops;
 mod curve_run;
-mod estimate;
+mod jackknife;
 mod measure;
-mod summary;
+mod panel;
+mod plan;
+mod tally;
+#[cfg(test)]
+mod tests;
 
 pub use brief::brief;
 pub use crops::crops;

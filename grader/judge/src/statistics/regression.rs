@@ -39,6 +39,17 @@ pub fn fit<const K: usize>(points: &[([f64; K], f64)]) -> Option<Fit<K>> {
     })
 }
 
+/// Intercept and slope of the weighted least-squares line through points (x, y), where `weight` is a function of y.
+/// `None` if fewer than two different x have a weight.
+pub fn line(points: &[(f64, f64)], weight: impl Fn(f64) -> f64) -> Option<[f64; 2]> {
+    let sum = |of: &dyn Fn(f64, f64) -> f64| points.iter().map(|&(x, y)| weight(y) * of(x, y)).sum::<f64>();
+    let total = sum(&|_, _| 1.0);
+    let (mean_x, mean_y) = (sum(&|x, _| x) / total, sum(&|_, y| y) / total);
+    let spread = sum(&|x, _| (x - mean_x).powi(2));
+    let slope = sum(&|x, y| (x - mean_x) * (y - mean_y)) / spread;
+    slope.is_finite().then_some([mean_y - slope * mean_x, slope])
+}
+
 /// Gaussian elimination with partial pivoting; the last column is the right-hand side.
 fn solve(mut matrix: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     let count = matrix.len();
@@ -63,6 +74,14 @@ fn solve(mut matrix: Vec<Vec<f64>>) -> Option<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_line_is_fitted_by_weight_and_needs_two_places() {
+        let points = [(1.0, 5.0), (2.0, 7.0), (4.0, 11.0), (8.0, -1e9)];
+        let fitted = line(&points, |y| if y > 0.0 { 1.0 } else { 0.0 }).expect("two places");
+        assert!((fitted[0] - 3.0).abs() < 1e-12 && (fitted[1] - 2.0).abs() < 1e-12, "{fitted:?}");
+        assert_eq!(line(&points[..1], |_| 1.0), None);
+    }
 
     #[test]
     fn a_plane_is_fitted_and_degenerate_points_are_refused() {

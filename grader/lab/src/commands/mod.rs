@@ -2,6 +2,7 @@
 
 mod calibrate;
 mod compare;
+mod coverage;
 mod facts;
 mod figures;
 mod gradescope;
@@ -31,6 +32,7 @@ enum Command {
     Calibrate(calibrate::Arguments),
     Compare(compare::Arguments),
     Facts(facts::Arguments),
+    Coverage(coverage::Arguments),
     Figures(figures::Arguments),
     Gradescope(gradescope::Arguments),
     Handout(handout::Arguments),
@@ -47,6 +49,7 @@ pub fn run() -> ExitCode {
         Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Facts(arguments) => facts::run(&arguments),
+        Command::Coverage(arguments) => coverage::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Gradescope(arguments) => gradescope::run(&arguments),
         Command::Handout(arguments) => handout::run(&arguments),

@@ -15,11 +15,20 @@ pub fn save_json(convergence: &Convergence, path: &Path) -> Result<()> {
 }
 
 /// The columns before the estimates.
-const COLUMNS: [&str; 8] =
-    ["scene", "technique", "program", "role", "max_bounces", "samples_per_pixel", "renders", "cpu_seconds"];
+const COLUMNS: [&str; 9] = [
+    "scene",
+    "technique",
+    "program",
+    "role",
+    "max_bounces",
+    "samples_per_pixel",
+    "renders",
+    "cpu_seconds",
+    "rays",
+];
 
 /// The estimates, each with the ends of its 95 % interval.
-const ESTIMATES: [&str; 5] = ["relative_mse", "trimmed_relative_mse", "mse", "bias_squared", "variance"];
+const ESTIMATES: [&str; 4] = ["relative_mse", "median_relative_mse", "trimmed_relative_mse", "mse"];
 
 /// Writes one line for each point of each curve, as CSV with a header.
 ///
@@ -40,6 +49,8 @@ fn write(convergence: &Convergence, writer: impl std::io::Write) -> csv::Result<
             for point in &curve.points {
                 let role = match curve.role {
                     Role::Submission => "submission",
+                    Role::Rival => "rival",
+                    Role::External => "external",
                     Role::Solution => "solution",
                     Role::Baseline => "baseline",
                 };
@@ -52,16 +63,18 @@ fn write(convergence: &Convergence, writer: impl std::io::Write) -> csv::Result<
                     point.samples.to_string(),
                     point.renders.to_string(),
                     point.seconds.to_string(),
+                    point.rays.to_string(),
                 ];
                 let estimates = [
-                    point.relative_mse,
+                    Some(point.relative_mse),
+                    point.median_relative_mse,
                     point.trimmed_relative_mse,
                     point.mse,
-                    point.bias_squared,
-                    point.variance,
                 ];
-                let numbers = estimates.iter().flat_map(|Estimate { value, interval: [low, high] }| {
-                    [value, low, high].map(f64::to_string)
+                // What is unknown is empty.
+                let numbers = estimates.iter().flat_map(|estimate| match estimate {
+                    Some(Estimate { value, interval: [low, high] }) => [value, low, high].map(f64::to_string),
+                    None => Default::default(),
                 });
                 writer.write_record(first.into_iter().chain(numbers))?;
             }

@@ -6,7 +6,7 @@ use maud::{Markup, PreEscaped, html};
 
 use verdict::convergence::{Convergence, Crop, Crops};
 
-use super::{not_measured, sentences, svg};
+use super::{Axis, not_measured, sentences, svg};
 use crate::page::document;
 use crate::pictures::png;
 
@@ -17,7 +17,12 @@ pub fn page(convergence: &Convergence, crops: &[Crops]) -> String {
         main {
             p.soft { "The error of an unbiased program falls with slope −1; a curve that flattens indicates a bias (dashed line). \
                 Bars are 95 % confidence intervals." }
-            @if let Some(plot) = svg(convergence) { div.scroll { (PreEscaped(plot)) } }
+            @if let Some(plot) = svg(convergence, Axis::Seconds) { div.scroll { (PreEscaped(plot)) } }
+            @for (axis, title) in [(Axis::Samples, "Error against samples"), (Axis::Rays, "Error against rays")] {
+                @if let Some(plot) = svg(convergence, axis) {
+                    details { summary { (title) } div.scroll { (PreEscaped(plot)) } }
+                }
+            }
             ul { @for sentence in convergence.panels.iter().flat_map(sentences) { li { (sentence) } } }
             @if !crops.is_empty() {
                 h2 { "Equal time" }

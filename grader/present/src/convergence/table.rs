@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
 use comfy_table::{Cell, CellAlignment, ContentArrangement, Table};
 
-use verdict::convergence::{Convergence, Curve, Estimate, NotMeasured, Panel, Role};
+use verdict::convergence::{Bias, Convergence, Curve, Estimate, NotMeasured, Panel, Role};
 
 use crate::words::count;
 
@@ -29,7 +29,8 @@ fn write(out: &mut impl Write, convergence: &Convergence) -> io::Result<()> {
     let threads = count(convergence.threads, "thread");
     writeln!(
         out,
-        "Seconds are processor time, {threads} each. In brackets: 95 % intervals, bootstrapped over renderings."
+        "Seconds are processor time, {threads} each. In brackets: 95 % intervals. Efficiency and cost of a sample are relative to \
+         the program with 1. \"heavy tails\": few renderings make up most of the error, whose interval is unknown; compare medians."
     )?;
     convergence.left_out.iter().try_for_each(|entry| writeln!(out, "{}", not_measured(entry)))
 }
@@ -56,33 +57,45 @@ pub(crate) fn not_measured(entry: &NotMeasured) -> String {
 /// What a panel says of each submission.
 pub fn sentences(panel: &Panel) -> Vec<String> {
     let submissions = panel.curves.iter().filter(|curve| curve.role == Role::Submission);
-    let sentence = |curve: &Curve| {
-        let point = curve.points.last()?;
-        let mut text = format!(
-            "{}, {}: relative MSE {} after {} s",
-            panel.scene,
-            panel.technique,
-            number(point.relative_mse.value),
-            number(point.seconds)
-        );
-        for (name, other) in [("the solution", Role::Solution), ("BSDF sampling", Role::Baseline)] {
-            let others = panel.curves.iter().find(|curve| curve.role == other);
-            if let Some(other) = others.and_then(|curve| curve.points.last()) {
-                text += &format!(", {name} {}", number(other.relative_mse.value));
+    submissions.filter_map(|curve| sentence(panel, curve)).collect()
+}
+
+fn sentence(panel: &Panel, curve: &Curve) -> Option<String> {
+    let point = curve.points.last()?;
+    let mut text = format!("{}, {}", panel.scene, panel.technique);
+    if panel.curves.iter().filter(|curve| curve.role == Role::Submission).count() > 1 {
+        text += &format!(", {}", curve.name);
+    }
+    text += &format!(": relative MSE {} after {} s", number(point.relative_mse.value), number(point.seconds));
+    for other in panel.curves.iter().filter(|other| other.role != Role::Submission) {
+        if let Some(point) = other.points.last() {
+            text += &format!(", {} {}", other.name, number(point.relative_mse.value));
+            if curve.points.last().is_some_and(|own| differ(own.seconds, point.seconds)) {
+                text += &format!(" after {} s", number(point.seconds));
             }
         }
-        if let Some(slope) = curve.slope {
-            text += &format!("; slope {} (−1 is expected)", with_interval(slope));
+    }
+    if let Some(slope) = curve.slope {
+        text += &format!("; slope {} (−1 is expected)", with_interval(slope));
+    }
+    if let (Some(efficiency), Some(yardstick)) = (curve.efficiency, &panel.yardstick) {
+        text += &format!("; efficiency {} relative to {yardstick}", with_interval(efficiency));
+        if let Some(cost) = curve.relative_cost {
+            text += &format!(", time for each sample {}", with_interval(cost));
         }
-        if let Some(efficiency) = curve.efficiency {
-            text += &format!("; efficiency {} of the solution's", with_interval(efficiency));
-        }
-        if curve.floor {
-            text += &format!("; the curve flattens at a bias of {}", bias(curve));
-        }
-        Some(text)
-    };
-    submissions.filter_map(sentence).collect()
+    }
+    if let Bias::Found { .. } = curve.bias {
+        text += &format!("; the curve flattens at a bias of {}", bias(curve));
+    }
+    if curve.heavy_tailed {
+        text += "; heavy tails: few renderings make up most of the error, so that its interval is unknown";
+    }
+    Some(text)
+}
+
+/// True if two times differ by more than a tenth.
+fn differ(a: f64, b: f64) -> bool {
+    (a / b).ln().abs() > 0.1
 }
 
 fn table(panel: &Panel) -> Table {
@@ -90,19 +103,21 @@ fn table(panel: &Panel) -> Table {
     table.load_style(UTF8_HORIZONTAL_ONLY).set_content_arrangement(ContentArrangement::Dynamic).set_header([
         "program".to_owned(),
         "relative MSE, longest".to_owned(),
-        "trimmed".to_owned(),
+        "median".to_owned(),
         "slope (−1)".to_owned(),
         "bias".to_owned(),
         "efficiency".to_owned(),
+        "cost of a sample".to_owned(),
         format!("time to {}", number(panel.target)),
     ]);
     for curve in &panel.curves {
         let last = curve.points.last();
         let error = last.map_or("–".to_owned(), |point| {
-            format!("{} after {} s", with_interval(point.relative_mse), number(point.seconds))
+            let tails = if curve.heavy_tailed { ", heavy tails" } else { "" };
+            format!("{} after {} s{tails}", with_interval(point.relative_mse), number(point.seconds))
         });
         let target = match (curve.seconds_to_target, last) {
-            (Some(seconds), _) => format!("{} s", number(seconds)),
+            (Some(seconds), _) => format!("{} s", with_interval(seconds)),
             (None, Some(point)) => format!("> {} s", number(point.seconds)),
             (None, None) => "–".to_owned(),
         };
@@ -110,10 +125,11 @@ fn table(panel: &Panel) -> Table {
             [
                 curve.name.clone(),
                 error,
-                last.map_or("–".to_owned(), |point| number(point.trimmed_relative_mse.value)),
+                last.and_then(|point| point.median_relative_mse).map_or("–".to_owned(), with_interval),
                 curve.slope.map_or("–".to_owned(), with_interval),
                 bias(curve),
                 curve.efficiency.map_or("–".to_owned(), with_interval),
+                curve.relative_cost.map_or("–".to_owned(), with_interval),
                 target,
             ]
             .into_iter()
@@ -127,16 +143,21 @@ fn table(panel: &Panel) -> Table {
     table
 }
 
-/// The root of the relative squared bias, where there is any to be seen.
+/// The root of the relative squared bias, if the judge's test found one.
 fn bias(curve: &Curve) -> String {
-    match curve.relative_bias_squared {
-        Some(estimate) if curve.floor => format!("{:.1} %", 100.0 * estimate.value.max(0.0).sqrt()),
-        Some(_) => "none seen".to_owned(),
-        None => "–".to_owned(),
+    match curve.bias {
+        Bias::Found { relative_squared } => format!("{:.1} %", 100.0 * relative_squared.sqrt()),
+        Bias::NotFound { detectable: Some(detectable) } => format!("none ≥ {:.1} %", 100.0 * detectable),
+        Bias::NotFound { detectable: None } => "none seen".to_owned(),
+        Bias::NotTested => "–".to_owned(),
     }
 }
 
 fn with_interval(Estimate { value, interval: [low, high] }: Estimate) -> String {
+    if low == high {
+        // Unknown, or relative to itself.
+        return number(value);
+    }
     format!("{} [{}, {}]", number(value), number(low), number(high))
 }
 

@@ -19,7 +19,7 @@ use maud::{Markup, PreEscaped, html};
 
 use prose::prose;
 
-use crate::convergence::{not_measured, sentences, svg};
+use crate::convergence::{Axis, not_measured, sentences, svg};
 use crate::words;
 use verdict::check::{CheckId, CheckResult, Evidence, Visibility};
 use verdict::edition::Edition;
@@ -112,7 +112,7 @@ fn convergence(report: &Report) -> Markup {
         h3 { "Error against run time" }
         p.soft { "This changes no points. The error of an unbiased program falls with slope −1; a curve that flattens indicates a bias \
             (dashed line). Bars are 95 % confidence intervals." }
-        @if let Some(plot) = svg(convergence) { div.scroll { (PreEscaped(plot)) } }
+        @if let Some(plot) = svg(convergence, Axis::Seconds) { div.scroll { (PreEscaped(plot)) } }
         ul { @for sentence in convergence.panels.iter().flat_map(sentences) { li { (sentence) } } }
         @for entry in &convergence.left_out { p { (not_measured(entry)) } }
     }

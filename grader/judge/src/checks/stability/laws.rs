@@ -227,6 +227,7 @@ mod tests {
             negative: 0,
             first_anomalies: Vec::new(),
             cpu_seconds: 0.0,
+            rays: 0,
         }
     }
 
