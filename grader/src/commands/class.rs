@@ -8,6 +8,7 @@ use jiff::tz::TimeZone;
 use super::intake::reader;
 use super::min_sandbox::MinSandbox;
 use super::policy::policy;
+use super::seed::Seed;
 use classroom::class::gradebook::{Row, State, save_class, save_gradebook};
 use classroom::class::page::ClassPage;
 use classroom::class::{Class, Outcome, RunOptions, has_results, roster, run as grade_all, similar, systems};
@@ -64,9 +65,8 @@ pub(super) struct Arguments {
     /// Score only; skip the HTML pages and their images
     #[arg(long)]
     no_report: bool,
-    /// Seed of all random numbers: the same seed gives the same verdicts
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
+    #[command(flatten)]
+    seed: Seed,
     /// Run only these checks, selected by name, kind, scene, technique or task; repeatable. A task earns points only
     /// if all of its checks are run
     #[arg(long, value_name = "CHECK|SCENE|TASK", conflicts_with_all = ["moodle", "ilias"])]
@@ -87,7 +87,7 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
     let policy = policy(workspace, &arguments.assignment.name, &rubric, arguments.course.as_deref())?;
     let class = arguments.class(policy.as_ref())?;
     output::create_folder(&out.join("submissions"))?;
-    let options = arguments.options();
+    let options = arguments.options()?;
     let tasks: Vec<String> = rubric.tasks.iter().map(|task| task.id.clone()).collect();
     let gradebook = out.join("gradebook.csv");
     note(format_args!("{} in the class, {} at once", class.members.len(), options.jobs));
@@ -126,21 +126,22 @@ impl Arguments {
         [&self.roster, &self.moodle, &self.ilias].into_iter().find_map(Option::as_deref)
     }
 
-    fn options(&self) -> RunOptions {
-        RunOptions {
+    fn options(&self) -> Result<RunOptions> {
+        Ok(RunOptions {
             grade: Options {
                 assignment: self.assignment.name.clone(),
-                seed: self.seed,
+                seed: self.seed.value()?,
                 threads: 1,
                 only: self.only.clone(),
                 limits: self.sandbox.of_others(),
             },
+            secret_seed: self.seed.is_secret(),
             jobs: self.jobs.map_or_else(rayon::current_num_threads, usize::from),
             out: self.out.clone(),
             regrade: self.regrade,
             pages: !self.no_report,
             reader: reader(),
-        }
+        })
     }
 
     /// Writes class.json, similar.txt, the page, and the tables of course systems.

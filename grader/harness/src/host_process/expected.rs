@@ -42,7 +42,7 @@ impl Expected {
     /// The answer to a request.
     pub(super) fn answer_to(request: &Request<'_>) -> Self {
         match request {
-            Request::Scene(_) => Self::of(0, None),
+            Request::Scene(..) => Self::of(0, None),
             Request::Render(job) => {
                 let pixels = u64::from(job.width) * u64::from(job.height);
                 let batches = job.seeds.len() as u64;
@@ -97,7 +97,7 @@ mod tests {
     use std::borrow::Cow;
 
     use arty::integrator::{Settings, Technique};
-    use host::protocol::{ProbeJob, ProbedPath, RenderJob, Rendered, Switches, write_message};
+    use host::protocol::{ProbeJob, ProbedPath, RenderJob, Rendered, write_message};
 
     use super::*;
 
@@ -110,7 +110,6 @@ mod tests {
             seeds: (0..batches).collect(),
             first_sample: 0,
             samples: 1,
-            switches: Switches::default(),
         }
     }
 
@@ -121,6 +120,7 @@ mod tests {
             non_finite: 0,
             negative: 0,
             first_anomalies,
+            rays: 0,
             cpu_seconds: 0.0,
         })
     }
