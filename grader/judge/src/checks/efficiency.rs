@@ -114,8 +114,12 @@ impl Check for Efficiency {
             && nearest.0 != spec.technique
             && nearest.1 < MISSING_TECHNIQUE_RATIO.ln();
         noise.as_noisy_as = is_missing.then_some(nearest.0);
+        // Without emission on hit there is no other light than that of light samples: so much noise cannot be theirs.
+        if spec.emission_on_hit == EmissionOnHit::Off && ratio.at_least(LEVEL) > MIN_RIVAL_RATIO {
+            noise.as_noisy_as = Some(Technique::Bsdf);
+        }
         noise.is_noisier = ratio.at_least(LEVEL) > NOISIER_RATIO;
-        let reason = if is_missing { Reason::Efficiency } else { Reason::None };
+        let reason = if noise.as_noisy_as.is_some() { Reason::Efficiency } else { Reason::None };
         Ok(CheckOutcome::new(reason, Evidence::Efficiency(noise), samples))
     }
 
