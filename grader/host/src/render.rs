@@ -3,6 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use arty::film::{Anomaly, Film};
+use arty::probe::{Key, take_counts};
 use arty::render::render;
 use arty::scene::Scene;
 use cpu_time::ProcessTime;
@@ -14,9 +15,10 @@ use crate::protocol::{AnomalousSample, RenderJob, Rendered};
 /// Maximum number of anomalous samples in a response.
 const MAX_ANOMALIES: usize = 16;
 
-/// Renders the batches in parallel, each with its own seed and all with one path tracer.
-pub(crate) fn batches(constructor: Constructor, scene: &Scene, job: &RenderJob) -> Rendered {
+/// Renders the batches in parallel, each with its own seed and all with one path tracer, and counts their rays.
+pub(crate) fn batches(key: &Key, constructor: Constructor, scene: &Scene, job: &RenderJob) -> Rendered {
     let integrator = constructor(job.settings);
+    take_rays(key);
     let start = ProcessTime::now();
     let films: Vec<(u64, Film)> = job
         .seeds
@@ -39,6 +41,7 @@ pub(crate) fn batches(constructor: Constructor, scene: &Scene, job: &RenderJob) 
         non_finite: 0,
         negative: 0,
         first_anomalies: Vec::new(),
+        rays: take_rays(key),
         cpu_seconds: start.elapsed().as_secs_f64(),
     };
     for (seed, film) in films {
@@ -57,4 +60,13 @@ pub(crate) fn batches(constructor: Constructor, scene: &Scene, job: &RenderJob) 
     }
     rendered.first_anomalies.truncate(MAX_ANOMALIES);
     rendered
+}
+
+/// Number of rays, shadow rays included, that this thread and those of the pool have traced since the last call. A job that
+/// cannot be divided runs on this thread.
+fn take_rays(key: &Key) -> u64 {
+    let own = take_counts(key);
+    let pool = rayon::broadcast(|_| take_counts(key));
+    let all = pool.into_iter().chain([own]);
+    all.map(|counts| u64::from(counts.rays) + u64::from(counts.shadow_rays)).sum()
 }
