@@ -44,6 +44,7 @@ impl PathTracer {
             non_finite: 0,
             negative: 0,
             first_anomalies: Vec::new(),
+            rays: 0,
             cpu_seconds: 0.0,
             rays: 0,
         });

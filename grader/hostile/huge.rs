@@ -11,7 +11,8 @@ impl PathTracer {
 }
 
 impl Integrator for PathTracer {
-    fn radiance(&self, _: &Scene, _: Ray, _: &mut Sampler) -> Rgb {
+    fn radiance(&self, scene: &Scene, ray: Ray, _: &mut Sampler) -> Rgb {
+        let _ = scene.intersect(&ray);
         Rgb::gray(f32::MAX)
     }
 }

@@ -10,7 +10,7 @@ use harness::build::{Framework, SubmissionProgram, compile};
 use harness::host_process::HostProcess;
 use harness::sandbox::{Level, Limits, Machine};
 use harness::workspace::Workspace;
-use host::protocol::{RenderJob, Switches};
+use host::protocol::RenderJob;
 use judge::grade::{Options, grade};
 use present::words;
 use serde::Deserialize;
@@ -30,6 +30,8 @@ struct Index {
 struct Attack {
     file: String,
     threat: String,
+    /// Kind of the check that it is held to, if not the usual one.
+    check: Option<String>,
     outcome: Outcome,
     #[serde(default)]
     says: String,
@@ -46,6 +48,8 @@ enum Outcome {
     Timeout,
     Numerics,
     Violation,
+    Efficiency,
+    Rays,
     Any,
 }
 
@@ -61,6 +65,7 @@ fn limits() -> Limits {
         compile_time: Duration::from_secs(8),
         compile_memory: 2 << 30,
         job_time: Duration::from_secs(5),
+        waiting: Duration::from_secs(4),
         job_memory: 512 << 20,
         ..Limits::default()
     }
@@ -70,13 +75,13 @@ fn workspace() -> Workspace {
     Workspace::find().expect("the tests run inside the checkout")
 }
 
-fn grade_source(workspace: &Workspace, source: String) -> Report {
+fn grade_source(workspace: &Workspace, source: String, check: &str) -> Report {
     let submission = Submission { path: PathBuf::from("render_pt.rs"), source };
     let options = Options {
         assignment: ASSIGNMENT.to_owned(),
         seed: 1,
         threads: 2,
-        only: vec![CHECK.to_owned()],
+        only: vec![check.to_owned()],
         limits: limits(),
     };
     grade(workspace, &submission, &options, |_| {}).expect("no submission makes the harness fail")
@@ -111,7 +116,6 @@ impl Honest {
             seeds: vec![1, 2, 3],
             first_sample: 0,
             samples: 16,
-            switches: Switches::default(),
         };
         process.render(&job).expect("it renders").batches
     }
@@ -156,6 +160,8 @@ fn ended_as(check: &CheckResult, outcome: Outcome) -> bool {
         Outcome::Timeout => Reason::Timeout,
         Outcome::Numerics => Reason::Numerics,
         Outcome::Violation => Reason::Violation,
+        Outcome::Efficiency => Reason::Efficiency,
+        Outcome::Rays => Reason::RayBudget,
     };
     let is_black = || check.mean_test().and_then(|test| test.effect).is_some_and(|effect| effect <= -1.0);
     check.verdict == Verdict::Fail && check.reason == reason && (outcome != Outcome::Black || is_black())
@@ -185,7 +191,11 @@ fn every_attack_ends_as_it_must_and_harms_nobody_else() {
         let file = folder.join(format!("{}.rs", attack.file));
         let source = std::fs::read_to_string(&file).expect("the file is there");
         let start = Instant::now();
-        let report = grade_source(&workspace, source.replace("@ROOT@", &root).replace("@DEEP@", &deep));
+        let report = grade_source(
+            &workspace,
+            source.replace("@ROOT@", &root).replace("@DEEP@", &deep),
+            attack.check.as_deref().unwrap_or(CHECK),
+        );
         let seconds = start.elapsed().as_secs_f64();
         eprintln!("{:<28} {:?} {seconds:.1} s", attack.file, attack.outcome);
         let complaint = complaint(attack, &report);
@@ -219,7 +229,7 @@ fn the_corpus_and_its_index_are_about_the_same_files() {
 fn the_report_tells_how_the_submission_was_confined_and_what_it_reached_for() {
     let workspace = workspace();
     let source = std::fs::read_to_string(workspace.solution_file()).expect("the solution is there");
-    let report = grade_source(&workspace, format!("{source}\nuse std::fs::File as _;\n"));
+    let report = grade_source(&workspace, format!("{source}\nuse std::fs::File as _;\n"), CHECK);
     assert_eq!(report.checks[0].verdict, Verdict::Pass, "{:#?}", report.checks[0]);
     let sandbox = &report.sandbox;
     assert_eq!(sandbox.level, Level::of(Machine::here().layers()), "{sandbox:?}");
@@ -258,7 +268,9 @@ fn where_a_sandbox_is_asked_for_nothing_is_graded_without() {
     let options =
         Options { assignment: ASSIGNMENT.to_owned(), seed: 1, threads: 2, only: Vec::new(), limits };
     let error = grade(&workspace, &submission, &options, |_| {}).expect_err("it is refused").to_string();
-    assert!(error.contains("--allow-sandbox=weak") && error.contains("`weak` here"), "{error}");
+    for named in ["--allow-sandbox=weak", "`weak` here", "Landlock", "seccomp"] {
+        assert!(error.contains(named), "{error}");
+    }
 }
 
 /// The processes that a process has started, and that live.

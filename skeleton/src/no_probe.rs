@@ -12,9 +12,9 @@ pub(crate) enum ScriptedBsdf {}
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum ScriptedLight {}
 
-/// Every way of finding light is enabled.
+/// Paths that hit a light find what light samples find.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Switches;
+pub(crate) struct HitRadiance;
 
 /// A call that is not recorded.
 pub(crate) struct Call;
@@ -63,12 +63,15 @@ impl ScriptedLight {
     }
 }
 
-impl Switches {
-    pub(crate) const ALL: Self = Self;
+impl HitRadiance {
+    #[inline]
+    pub(crate) fn new(_: Rgb) -> Self {
+        Self
+    }
 
     #[inline]
-    pub(crate) fn emission_on_hit(self) -> bool {
-        true
+    pub(crate) fn get(self, sampled: Rgb) -> Rgb {
+        sampled
     }
 }
 

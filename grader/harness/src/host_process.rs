@@ -7,15 +7,15 @@ mod expected;
 use std::borrow::Cow;
 use std::io::ErrorKind;
 use std::process::{Child, Command, Stdio};
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
-use std::time::{Duration, Instant};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 use arty::integrator::Settings;
 use arty::scene::SceneDescription;
 use host::protocol::{
     AuditJob, AuditedRun, ProbeJob, ProbedPath, RenderJob, Rendered, ReplayJob, Replayed, Request, Response,
-    UNCONFINED, write_message,
+    Switches, UNCONFINED, write_message,
 };
 use verdict::check::Fault;
 use verdict::error::{Error, Result};
@@ -23,9 +23,11 @@ use verdict::text::clean;
 
 use crate::build::SubmissionProgram;
 use crate::job::JobError;
-use crate::sandbox::{self, Account, Layers, Profile};
-use answers::{check_shape, clean_words, malformed, of_first_part, unexpected};
-use child::{describe, receive, send, spawn};
+use crate::sandbox::{self, Account, BUSY, Layers, Profile, Watch};
+use answers::{
+    check_rays, check_shape, clean_words, malformed, number_of_lights, of_first_part, too_busy, unexpected,
+};
+use child::{describe, receive, send, spawn, started_thread};
 use expected::Expected;
 
 /// A running submission that answers jobs.
@@ -37,9 +39,13 @@ pub struct HostProcess {
     /// Sends the reader the limits of the next answer; no answer is read before it is expected.
     expected: Sender<Expected>,
     responses: Receiver<std::io::Result<Option<Response>>>,
-    scenes: u32,
+    /// Number of lights of each scene.
+    scenes: Vec<usize>,
     job_time: Duration,
-    /// Time for all jobs together, and how much of it is left.
+    /// Time for which the submission may wait, and for which its processes have waited.
+    waiting: Duration,
+    waited: Arc<Mutex<Duration>>,
+    /// Processor time for all jobs together, and how much of it is left.
     all_jobs: Option<[Duration; 2]>,
     /// Scene and settings of the last job whose first part was in time.
     tried: Option<(u32, Settings)>,
@@ -59,6 +65,9 @@ const FIRST_PART: usize = 8;
 
 /// … within one in so many parts of the time: a third more than its share.
 const FIRST_PART_TIME: u32 = 6;
+
+/// Time after which it is looked again what a process does.
+const TICK: Duration = Duration::from_millis(50);
 
 /// Answer to a job.
 type Answer<T> = std::result::Result<T, JobError>;
@@ -100,8 +109,10 @@ impl HostProcess {
             requests,
             expected,
             responses,
-            scenes: 0,
+            scenes: Vec::new(),
             job_time,
+            waiting: limits.waiting,
+            waited: Arc::clone(program.waited()),
             all_jobs: None,
             tried: None,
             layers,
@@ -111,7 +122,7 @@ impl HostProcess {
             _account: account,
         };
         let _ = process.expected.send(Expected::start());
-        process.failed = match process.answer(job_time, job_time) {
+        process.failed = match process.answer(job_time).0 {
             Ok(Response::Started) => None,
             Ok(_) => Some(Fault::Malformed("it did not report that it has started".to_owned())),
             Err(JobError::Submission(fault)) => Some(fault),
@@ -127,7 +138,7 @@ impl HostProcess {
         self.failed.as_ref()
     }
 
-    /// Limits the time for all further jobs together.
+    /// Limits the processor time for all further jobs together.
     #[must_use]
     pub fn within(mut self, time: Duration) -> Self {
         self.all_jobs = Some([time; 2]);
@@ -142,10 +153,15 @@ impl HostProcess {
 
     /// Sends a scene and returns the number by which jobs refer to it.
     pub fn load(&mut self, scene: &SceneDescription) -> Answer<u32> {
-        match self.ask(&Request::Scene(Cow::Borrowed(scene)), self.job_time)? {
+        self.load_with(scene, Switches::default())
+    }
+
+    /// Sends a scene with switches and returns the number by which jobs refer to it.
+    pub fn load_with(&mut self, scene: &SceneDescription, switches: Switches) -> Answer<u32> {
+        match self.ask(&Request::Scene(Cow::Borrowed(scene), switches), self.job_time)? {
             Response::SceneReady => {
-                self.scenes += 1;
-                Ok(self.scenes - 1)
+                self.scenes.push(number_of_lights(scene));
+                Ok(self.scenes.len() as u32 - 1)
             }
             other => Err(unexpected(other)),
         }
@@ -172,10 +188,12 @@ impl HostProcess {
     }
 
     fn render_in_time(&mut self, job: &RenderJob, time: Duration) -> Answer<Rendered> {
-        self.require_scene(job.scene)?;
+        let lights = self.lights(job.scene)?;
         let (pixels, batches) = (job.width as usize * job.height as usize, job.seeds.len());
         match self.ask(&Request::Render(Cow::Borrowed(job)), time)? {
-            Response::Rendered(rendered) => Ok(check_shape(rendered, batches, pixels)?),
+            Response::Rendered(rendered) => {
+                Ok(check_rays(check_shape(rendered, batches, pixels)?, job, lights)?)
+            }
             other => Err(unexpected(other)),
         }
     }
@@ -220,19 +238,19 @@ impl HostProcess {
 
     /// Traces one path again and records every call. Numbers are not checked; texts are made harmless.
     pub fn replay(&mut self, job: ReplayJob) -> Answer<Replayed> {
-        self.require_scene(job.scene)?;
+        self.lights(job.scene)?;
         match self.ask(&Request::Replay(job), self.job_time)? {
             Response::Replayed(path) => Ok(clean_words(path)),
             other => Err(unexpected(other)),
         }
     }
 
-    /// Checks a job for mistakes of the grader's own, so that a rejection by the process is a fault of the submission.
-    fn require_scene(&self, scene: u32) -> Result<()> {
-        if scene < self.scenes {
-            return Ok(());
-        }
-        Err(Error::Harness(format!("there is no scene {scene}: {} were sent", self.scenes)))
+    /// Number of lights of a scene. Checks a job for mistakes of the grader's own, so that a rejection by the process is a
+    /// fault of the submission.
+    fn lights(&self, scene: u32) -> Result<usize> {
+        self.scenes.get(scene as usize).copied().ok_or_else(|| {
+            Error::Harness(format!("there is no scene {scene}: {} were sent", self.scenes.len()))
+        })
     }
 
     fn ask(&mut self, request: &Request<'_>, time: Duration) -> Answer<Response> {
@@ -245,10 +263,9 @@ impl HostProcess {
         // If nobody takes it any more, there will be no answer either.
         let _ = self.expected.send(Expected::answer_to(request));
         let _ = self.requests.send(bytes);
-        let Some([all, left]) = self.all_jobs else { return self.answer(time, self.job_time) };
-        let start = Instant::now();
-        let answer = self.answer(time.min(left), self.job_time.min(left));
-        self.all_jobs = Some([all, left.saturating_sub(start.elapsed())]);
+        let Some([all, left]) = self.all_jobs else { return self.answer(time).0 };
+        let (answer, computed) = self.answer(time.min(left));
+        self.all_jobs = Some([all, left.saturating_sub(computed)]);
         answer.map_err(|error| match error {
             JobError::Submission(Fault::Timeout(_)) if left < time => {
                 Fault::Timeout(all.as_secs_f64()).into()
@@ -257,28 +274,55 @@ impl HostProcess {
         })
     }
 
-    /// Waits for the next message for `time`, or up to `max` if the process had less than half of `time` on a processor
-    /// because the machine was busy.
-    fn answer(&mut self, time: Duration, max: Duration) -> Answer<Response> {
-        let before = sandbox::processor_time(&self.child);
-        let (mut time, mut said) = (time, self.responses.recv_timeout(time));
-        if matches!(said, Err(RecvTimeoutError::Timeout)) && time < max {
-            let worked = before.zip(sandbox::processor_time(&self.child));
-            if worked.is_some_and(|(before, now)| now.saturating_sub(before) < time / 2) {
-                said = self.responses.recv_timeout(max - time);
-                time = max;
-            }
+    /// Waits for the next message until the process has used `time` on processors, or has waited too long itself. Also
+    /// returns the processor time that it has used.
+    fn answer(&mut self, time: Duration) -> (Answer<Response>, Duration) {
+        let watch = Watch::start(&self.child);
+        let earlier = *self.waited.lock().unwrap_or_else(PoisonError::into_inner);
+        let may_wait = (self.waiting / 2).min(self.waiting.saturating_sub(earlier));
+        loop {
+            let said = self.responses.recv_timeout(TICK);
+            let spent = watch.spent(&self.child);
+            let fault = match said {
+                Err(RecvTimeoutError::Timeout) if spent.computed >= time => {
+                    Fault::Timeout(time.as_secs_f64())
+                }
+                Err(RecvTimeoutError::Timeout) if spent.waited >= may_wait => {
+                    Fault::Waiting(spent.waited.as_secs_f64().round())
+                }
+                Err(RecvTimeoutError::Timeout) if spent.wall >= self.job_time * BUSY => {
+                    return (Err(too_busy(spent.wall).into()), spent.computed);
+                }
+                Err(RecvTimeoutError::Timeout) => continue,
+                said => {
+                    self.count_waiting(spent.waited);
+                    return (self.said(said), spent.computed);
+                }
+            };
+            self.count_waiting(spent.waited);
+            sandbox::end(&mut self.child);
+            self.ended = true;
+            return (Err(fault.into()), spent.computed);
         }
+    }
+
+    /// Adds to the time for which the submission has waited, unless it is too short to tell from that of the pipe.
+    fn count_waiting(&self, waited: Duration) {
+        if waited > TICK {
+            *self.waited.lock().unwrap_or_else(PoisonError::into_inner) += waited;
+        }
+    }
+
+    fn said(
+        &mut self,
+        said: std::result::Result<std::io::Result<Option<Response>>, RecvTimeoutError>,
+    ) -> Answer<Response> {
         match said {
             Ok(Ok(Some(response))) => Ok(response),
-            Ok(Ok(None)) | Err(RecvTimeoutError::Disconnected) => Err(self.crash()?.into()),
-            Ok(Err(error)) if error.kind() == ErrorKind::UnexpectedEof => Err(self.crash()?.into()),
-            Ok(Err(error)) => Err(malformed(&clean(&error.to_string()))),
-            Err(RecvTimeoutError::Timeout) => {
-                sandbox::end(&mut self.child);
-                self.ended = true;
-                Err(Fault::Timeout(time.as_secs_f64()).into())
+            Ok(Err(error)) if error.kind() != ErrorKind::UnexpectedEof => {
+                Err(malformed(&clean(&error.to_string())))
             }
+            _ => Err(self.crash()?.into()),
         }
     }
 
@@ -292,7 +336,11 @@ impl HostProcess {
             sandbox::blame_machine(status, self.kills, "the submission's program")?;
         }
         sandbox::end(&mut self.child);
-        Ok(Fault::Crash(self.child.wait().map_or_else(|error| error.to_string(), describe)))
+        Ok(match self.child.wait() {
+            Ok(status) if started_thread(status) => Fault::Threads,
+            Ok(status) => Fault::Crash(describe(status)),
+            Err(error) => Fault::Crash(error.to_string()),
+        })
     }
 }
 

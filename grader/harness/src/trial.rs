@@ -75,9 +75,10 @@ pub fn require(sandbox: &Sandbox, min_level: Level) -> Result<()> {
     if sandbox.level >= min_level {
         return Ok(());
     }
-    let Sandbox { level, .. } = sandbox;
+    let Sandbox { level, compiler, host, .. } = sandbox;
+    let missing = compiler.and(*host).missing().join(", ");
     Err(Error::Input(format!(
-        "the sandbox is `{level}` here, and `{min_level}` is asked for: run `cargo grader doctor` to see what is missing, or \
-         give --allow-sandbox={level} if you trust everybody whose file is graded"
+        "the sandbox is `{level}` here, and `{min_level}` is asked for; missing: {missing}. Run `cargo grader doctor` to \
+         see how to get it, or give --allow-sandbox={level} if you trust everybody whose file is graded"
     )))
 }

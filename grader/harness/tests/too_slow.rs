@@ -24,13 +24,15 @@ fn nobody_waits_to_the_end_for_a_submission_that_is_too_slow_by_far_unless_it_ha
             pub struct PathTracer;
             impl PathTracer {{ pub fn new(_: Settings) -> Self {{ Self }} }}
             impl Integrator for PathTracer {{
-                fn radiance(&self, _: &Scene, _: Ray, sampler: &mut Sampler) -> Rgb {{
+                fn radiance(&self, scene: &Scene, ray: Ray, sampler: &mut Sampler) -> Rgb {{
+                    let _ = scene.intersect(&ray);
                     {sample};
                     Rgb::WHITE * sampler.next_1d()
                 }}
             }}"
         );
-        let limits = Limits { job_time: Duration::from_secs(3), ..Limits::default() };
+        let (job_time, waiting) = (Duration::from_secs(3), Duration::from_secs(6));
+        let limits = Limits { job_time, waiting, ..Limits::default() };
         let program = compile(&framework, &source, &limits).expect("rustc runs").expect("it compiles");
         let process = HostProcess::start(&program, 1).expect("the program starts");
         let mut process = process.within(limits.job_time);
@@ -59,9 +61,9 @@ fn nobody_waits_to_the_end_for_a_submission_that_is_too_slow_by_far_unless_it_ha
         work(400)
     );
     assert_eq!(render(&later)[2], Err(Fault::Timeout(3.0)));
-    // Who sleeps is taken for one whom the machine lets wait.
+    // Waiting has limits of its own, of which no part of a job has less.
     let asleep = "std::thread::sleep(std::time::Duration::from_millis(600))";
-    assert_eq!(render(asleep)[0], Err(Fault::Timeout(3.0)));
+    assert_eq!(render(asleep)[0], Err(Fault::Waiting(3.0)));
     let awake_later =
         format!("static ONCE: std::sync::Once = std::sync::Once::new(); ONCE.call_once(|| {asleep})");
     assert!(render(&awake_later).iter().all(Result::is_ok));

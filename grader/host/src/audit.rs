@@ -10,10 +10,13 @@ use crate::protocol::{AuditJob, AuditRun, AuditSampling, AuditScene, AuditedRun}
 
 /// All runs of a valid job.
 pub(crate) fn all(key: &Key, constructor: Constructor, job: &AuditJob) -> Vec<AuditedRun> {
-    let mut scenes: Vec<Scene> = job.scenes.iter().map(build).collect();
+    let scenes: Vec<Scene> = job.scenes.iter().map(build).collect();
+    let mut black_when_hit: Vec<Scene> = job.scenes.iter().map(build).collect();
+    black_when_hit.iter_mut().for_each(Scene::blacken_hits);
     let runs = job.runs.iter().map(|audited| {
-        let (scripted, scene) = (&job.scenes[audited.scene as usize], &mut scenes[audited.scene as usize]);
-        scene.set_switches(probe::Switches { emission_on_hit: audited.emission_on_hit });
+        let scripted = &job.scenes[audited.scene as usize];
+        let built = if audited.emission_on_hit { &scenes } else { &black_when_hit };
+        let scene = &built[audited.scene as usize];
         let ray = Ray::new(scripted.origin, scripted.direction);
         let result = run(key, constructor, audited, scene, ray);
         probe::set_strata(key, None);

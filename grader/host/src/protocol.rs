@@ -21,7 +21,7 @@ pub const MAX_MESSAGE: u32 = 512 << 20;
 #[derive(Debug, Serialize, Deserialize)]
 pub enum Request<'a> {
     /// Build this scene. Later requests refer to it by its index, in the order of building.
-    Scene(Cow<'a, SceneDescription>),
+    Scene(Cow<'a, SceneDescription>, Switches),
     /// Render batches of a scene.
     Render(Cow<'a, RenderJob>),
     /// Trace paths through small scripted scenes.
@@ -47,8 +47,6 @@ pub struct ReplayJob {
     pub pixel: [u32; 2],
     /// Index of the sample.
     pub sample: u64,
-    /// Switches of the scene.
-    pub switches: Switches,
 }
 
 /// Independent renderings of one scene.
@@ -68,8 +66,6 @@ pub struct RenderJob {
     pub first_sample: u64,
     /// Samples per pixel and batch.
     pub samples: u64,
-    /// Switches of the scene.
-    pub switches: Switches,
 }
 
 impl RenderJob {
@@ -81,15 +77,14 @@ impl RenderJob {
         seeds: Vec<u64>,
         samples: u64,
     ) -> Self {
-        let (first_sample, switches) = (0, Switches::default());
-        Self { scene, settings, width, height, seeds, first_sample, samples, switches }
+        Self { scene, settings, width, height, seeds, first_sample: 0, samples }
     }
 }
 
-/// Switches of a scene. By default everything is on.
+/// Switches of a scene, which is built accordingly. By default everything is on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Switches {
-    /// False if `Hit::emission` returns black.
+    /// False if the lights of the scene are black for paths that hit them.
     pub emission_on_hit: bool,
 }
 
@@ -227,10 +222,10 @@ pub struct Rendered {
     pub negative: u64,
     /// The first few of these samples.
     pub first_anomalies: Vec<AnomalousSample>,
+    /// Number of calls of `Scene::intersect` and `Scene::occluded`.
+    pub rays: u64,
     /// Processor time of the rendering over all threads, in seconds.
     pub cpu_seconds: f64,
-    /// Number of rays, shadow rays included.
-    pub rays: u64,
 }
 
 impl Rendered {
@@ -240,8 +235,8 @@ impl Rendered {
         self.non_finite += more.non_finite;
         self.negative += more.negative;
         self.first_anomalies.extend(more.first_anomalies);
-        self.cpu_seconds += more.cpu_seconds;
         self.rays += more.rays;
+        self.cpu_seconds += more.cpu_seconds;
     }
 }
 

@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use arty::film::{Anomaly, Film};
-use arty::probe::{Counts, Key, take_counts};
+use arty::probe::{Key, take_counts};
 use arty::render::render;
 use arty::scene::Scene;
 use cpu_time::ProcessTime;
@@ -15,7 +15,7 @@ use crate::protocol::{AnomalousSample, RenderJob, Rendered};
 /// Maximum number of anomalous samples in a response.
 const MAX_ANOMALIES: usize = 16;
 
-/// Renders the batches in parallel, each with its own seed and all with one path tracer.
+/// Renders the batches in parallel, each with its own seed and all with one path tracer, and counts their rays.
 pub(crate) fn batches(key: &Key, constructor: Constructor, scene: &Scene, job: &RenderJob) -> Rendered {
     let integrator = constructor(job.settings);
     take_rays(key);
@@ -41,8 +41,8 @@ pub(crate) fn batches(key: &Key, constructor: Constructor, scene: &Scene, job: &
         non_finite: 0,
         negative: 0,
         first_anomalies: Vec::new(),
-        cpu_seconds: start.elapsed().as_secs_f64(),
         rays: take_rays(key),
+        cpu_seconds: start.elapsed().as_secs_f64(),
     };
     for (seed, film) in films {
         rendered.batches.push(film.pixels().iter().map(|pixel| pixel.mean().to_array()).collect());
@@ -62,8 +62,11 @@ pub(crate) fn batches(key: &Key, constructor: Constructor, scene: &Scene, job: &
     rendered
 }
 
-/// Number of rays that all threads have traced since the last call.
+/// Number of rays, shadow rays included, that this thread and those of the pool have traced since the last call. A job that
+/// cannot be divided runs on this thread.
 fn take_rays(key: &Key) -> u64 {
-    let of_thread = |Counts { rays, shadow_rays, .. }: Counts| u64::from(rays) + u64::from(shadow_rays);
-    rayon::broadcast(|_| of_thread(take_counts(key))).into_iter().sum()
+    let own = take_counts(key);
+    let pool = rayon::broadcast(|_| take_counts(key));
+    let all = pool.into_iter().chain([own]);
+    all.map(|counts| u64::from(counts.rays) + u64::from(counts.shadow_rays)).sum()
 }

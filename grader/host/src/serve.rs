@@ -9,9 +9,9 @@ use std::sync::Mutex;
 use arty::probe::Key;
 use arty::scene::Scene;
 
-use crate::confine::tighten;
+use crate::confine::{allow_only_computing, close_files};
 use crate::constructor::Constructor;
-use crate::protocol::{MAX_MESSAGE, Request, Response, Switches, UNCONFINED, read_message, write_message};
+use crate::protocol::{MAX_MESSAGE, Request, Response, UNCONFINED, read_message, write_message};
 use crate::{audit, probe, render, replay, stdio};
 
 /// Answers requests until the grader closes the pipe. Exit code 3 if the pipe breaks or this is not the first call.
@@ -28,8 +28,13 @@ pub fn serve(constructor: Constructor) -> ExitCode {
         return ExitCode::from(3);
     };
     // Staff can start a process without a sandbox, to measure the cost of the sandbox.
-    if std::env::args().nth(1).is_none_or(|argument| argument != UNCONFINED) {
-        tighten();
+    let confined = std::env::args().nth(1).is_none_or(|argument| argument != UNCONFINED);
+    if confined {
+        close_files();
+    }
+    start_threads();
+    if confined {
+        allow_only_computing();
     }
     keep_panic_messages();
     let mut output = BufWriter::new(output);
@@ -44,6 +49,12 @@ pub fn serve(constructor: Constructor) -> ExitCode {
     }
 }
 
+/// Starts the threads that render, as many as the environment asks for, and waits until all of them run: a submission can
+/// start none.
+fn start_threads() {
+    rayon::broadcast(|_| ());
+}
+
 fn answer_all(
     key: &Key,
     constructor: Constructor,
@@ -53,23 +64,20 @@ fn answer_all(
     let mut scenes: Vec<Scene> = Vec::new();
     while let Some(request) = read_message(input, MAX_MESSAGE)? {
         let response = match request {
-            Request::Scene(description) => {
+            Request::Scene(description, switches) => {
                 scenes.push(Scene::new(&description));
+                if let (false, Some(scene)) = (switches.emission_on_hit, scenes.last_mut()) {
+                    scene.blacken_hits();
+                }
                 Response::SceneReady
             }
-            Request::Render(job) => match scenes.get_mut(job.scene as usize) {
+            Request::Render(job) => match scenes.get(job.scene as usize) {
                 None => Response::Rejected { message: format!("there is no scene {}", job.scene) },
-                Some(scene) => {
-                    scene.set_switches(switches(job.switches));
-                    guarded(|| Response::Rendered(render::batches(key, constructor, scene, &job)))
-                }
+                Some(scene) => guarded(|| Response::Rendered(render::batches(key, constructor, scene, &job))),
             },
-            Request::Replay(job) => match scenes.get_mut(job.scene as usize) {
+            Request::Replay(job) => match scenes.get(job.scene as usize) {
                 None => Response::Rejected { message: format!("there is no scene {}", job.scene) },
-                Some(scene) => {
-                    scene.set_switches(switches(job.switches));
-                    guarded(|| Response::Replayed(replay::path(key, constructor, scene, &job)))
-                }
+                Some(scene) => guarded(|| Response::Replayed(replay::path(key, constructor, scene, &job))),
             },
             Request::Probe(job)
                 if job.stratified && !(job.samples.is_power_of_two() && job.samples <= 1 << 20) =>
@@ -85,10 +93,6 @@ fn answer_all(
         write_message(output, &response)?;
     }
     Ok(())
-}
-
-fn switches(switches: Switches) -> arty::probe::Switches {
-    arty::probe::Switches { emission_on_hit: switches.emission_on_hit }
 }
 
 /// Runs code of the submission and turns a panic into a response.

@@ -23,8 +23,8 @@ fn responses() -> Vec<Vec<u8>> {
         non_finite: 1,
         negative: 0,
         first_anomalies: vec![AnomalousSample { seed: 1, x: 2, y: 3, sample: 4, value: [f32::INFINITY; 3] }],
-        cpu_seconds: 0.5,
         rays: 7,
+        cpu_seconds: 0.5,
     };
     let path = ProbedPath { radiance: [0.0; 3], rays: 1, shadow_rays: 2, light_samples: 3 };
     let value = || ("wi".to_owned(), vec![0.0, 1.0, f32::NAN]);
@@ -60,9 +60,11 @@ fn requests() -> Vec<Vec<u8>> {
         seeds: vec![1, 2, 3],
         first_sample: 0,
         samples: 4,
-        switches: Switches::default(),
     };
-    vec![bytes_of(&Request::Scene(Cow::Owned(scene))), bytes_of(&Request::Render(Cow::Owned(job)))]
+    vec![
+        bytes_of(&Request::Scene(Cow::Owned(scene), Switches::default())),
+        bytes_of(&Request::Render(Cow::Owned(job))),
+    ]
 }
 
 fn bytes_of(message: &impl serde::Serialize) -> Vec<u8> {

@@ -9,6 +9,7 @@ use super::class_tables::{Systems, Tables, exit_status, print_changes};
 use super::intake::reader;
 use super::min_sandbox::MinSandbox;
 use super::policy::policy;
+use super::seed::Seed;
 use classroom::class::roster::Roster;
 use classroom::class::shard::{ClassHash, Shard, ShardFile};
 use classroom::class::{Accepted, Class, RunOptions, has_results, run as grade_all};
@@ -77,9 +78,8 @@ pub(super) struct Arguments {
     /// Score only; skip the HTML pages and their images
     #[arg(long)]
     no_report: bool,
-    /// Seed of all random numbers: the same seed gives the same verdicts
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
+    #[command(flatten)]
+    seed: Seed,
     /// Run only these checks, selected by name, kind, scene, technique or task; repeatable. A task earns points only
     /// if all of its checks are run
     #[arg(long, value_name = "CHECK|SCENE|TASK", conflicts_with_all = ["moodle", "ilias"])]
@@ -105,7 +105,7 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
         output::remove(&ShardFile::path(&out))?;
         class.keep(*shard);
     }
-    let options = arguments.options(out.clone());
+    let options = arguments.options(out.clone())?;
     let tables = Tables {
         systems: &arguments.systems,
         assignment: &arguments.assignment.name,
@@ -179,21 +179,22 @@ impl Arguments {
         tables.into_iter().filter_map(Option::as_deref).collect()
     }
 
-    fn options(&self, out: PathBuf) -> RunOptions {
-        RunOptions {
+    fn options(&self, out: PathBuf) -> Result<RunOptions> {
+        Ok(RunOptions {
             grade: Options {
                 assignment: self.assignment.name.clone(),
-                seed: self.seed,
+                seed: self.seed.value()?,
                 threads: 1,
                 only: self.only.clone(),
                 limits: self.sandbox.of_others(),
             },
+            secret_seed: self.seed.is_secret(),
             jobs: self.jobs.map_or_else(rayon::current_num_threads, usize::from),
             out,
             regrade: self.regrade,
             preview: self.preview,
             pages: !self.no_report && !self.preview,
             reader: reader(),
-        }
+        })
     }
 }

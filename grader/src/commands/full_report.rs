@@ -31,13 +31,13 @@ pub(super) fn complete(
     let mut shown = Vec::new();
     if let Some(program) = program {
         note("measuring error against run time, which gives no points (--no-report skips it) …");
-        let Options { seed, threads, .. } = grader.options();
+        let (seed, Options { threads, .. }) = (grader.public_seed(), grader.options());
         let solution = grader.oracle().map(Oracle::program).transpose()?;
-        let convergence = brief(workspace, program, solution.as_deref(), *seed)?;
+        let convergence = brief(workspace, program, solution.as_deref(), seed)?;
         print_line("\nError against run time (gives no points)")?;
         print_sentences(&convergence);
         report.convergence = Some(convergence);
-        shown = pictures(workspace, program, report, *threads, *seed, MAX_PICTURES)?;
+        shown = pictures(workspace, program, report, *threads, seed, MAX_PICTURES)?;
         report.images = shown.iter().flat_map(Picture::errors).collect();
     }
     report.save(file)?;

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use super::intake::reader;
 use super::lateness::{Received, When};
 use super::min_sandbox::MinSandbox;
+use super::seed::Seed;
 use super::{export, full_report, watch};
 use ::intake::{Intake, Refusal};
 use classroom::marks::Marks;
@@ -35,9 +36,8 @@ pub(super) struct Arguments {
     /// Folder for report.json, report.html (for the student) and report-tutor.html; created if missing
     #[arg(long, value_name = "DIR", default_value = "report")]
     out: PathBuf,
-    /// Seed of all random numbers: the same seed gives the same verdicts
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
+    #[command(flatten)]
+    seed: Seed,
     /// Run only these checks, selected by name, kind, scene, technique or task; repeatable
     #[arg(long, value_name = "CHECK|SCENE|TASK")]
     only: Vec<String>,
@@ -76,6 +76,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
+    let options = arguments.options()?;
     let path = relative(arguments.submission.clone().unwrap_or_else(|| workspace.student_file()));
     let received = arguments.when.read(workspace, &arguments.assignment.name)?;
     let starter = workspace.starter(&arguments.assignment.name)?;
@@ -92,13 +93,14 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
         progress.say("building the framework that submissions are linked against: once, takes a minute …");
     }
     if arguments.watch {
-        watch::watch(workspace, &path, &arguments.options(), &file)?;
+        watch::watch(workspace, &path, &options, &file)?;
     }
     for note in &intake.notes {
         progress.say(&format!("note: {note}"));
     }
     progress.begin("preparing the framework");
-    let grader = Grader::new(workspace, &arguments.options())?;
+    let grader = Grader::new(workspace, &options)?;
+    let grader = if arguments.seed.is_secret() { grader.with_secret_seed() } else { grader };
     let checksums = intake.checksums.clone();
     let (mut report, program) = grade(&grader, intake, &path, &mut progress)?;
     let student = report.submission.path.clone();
@@ -148,14 +150,14 @@ impl Arguments {
         if self.all { Detail::All } else { Detail::Next }
     }
 
-    fn options(&self) -> Options {
-        Options {
+    fn options(&self) -> Result<Options> {
+        Ok(Options {
             assignment: self.assignment.name.clone(),
-            seed: self.seed,
+            seed: self.seed.value()?,
             threads: self.jobs.map_or_else(rayon::current_num_threads, usize::from),
             only: self.only.clone(),
             limits: self.sandbox.of_one(),
-        }
+        })
     }
 }
 

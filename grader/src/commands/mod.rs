@@ -21,6 +21,7 @@ mod pack;
 mod plan;
 mod policy;
 mod replay;
+mod seed;
 mod watch;
 
 use std::path::PathBuf;

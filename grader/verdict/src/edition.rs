@@ -64,6 +64,9 @@ pub fn for_student(report: &Report, path: Option<&str>) -> (Report, Edition) {
         convergence.panels.retain(|panel| is_public(&panel.scene));
         convergence.left_out.retain(|entry| is_public(&entry.scene));
     }
+    if student.provenance.secret_seed {
+        student.provenance.seed = None;
+    }
     if let Some(path) = path {
         path.clone_into(&mut student.submission.path);
         student.provenance.assignment.clone_from(&student.assignment);
@@ -89,6 +92,18 @@ mod tests {
         }
         assert_eq!(student.checks.len(), 1);
         assert_eq!(student.points, report.points, "checks that are not shown count all the same");
+    }
+
+    #[test]
+    fn a_secret_seed_is_in_the_tutors_edition_only() {
+        let mut report = sample::report("open");
+        (report.provenance.seed, report.provenance.secret_seed) = (Some(0x5eed_5eed), true);
+        let text = |report: &Report| serde_json::to_string(report).expect("it is JSON");
+        let secret = 0x5eed_5eed_u64.to_string();
+        assert!(text(&report).contains(&secret), "staff can repeat the grade");
+        assert!(!text(&for_student(&report, None).0).contains(&secret));
+        report.provenance.secret_seed = false;
+        assert!(text(&for_student(&report, None).0).contains(&secret), "any other seed is no secret");
     }
 
     #[test]

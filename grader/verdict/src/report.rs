@@ -328,8 +328,12 @@ pub struct Provenance {
     pub rubric: String,
     /// BLAKE3 of the references.
     pub references: String,
-    /// Seed of the grade.
-    pub seed: u64,
+    /// Seed of the grade; `None` in the student's edition if it is secret.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seed: Option<u64>,
+    /// True if only staff know the seed.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub secret_seed: bool,
     /// Version of the compiler, as it reports it.
     pub toolchain: String,
     /// Number of threads of the submission.

@@ -62,6 +62,18 @@ impl std::fmt::Display for Level {
 }
 
 impl Layers {
+    /// Names of the layers that are not active.
+    pub fn missing(self) -> Vec<&'static str> {
+        let Self { landlock, seccomp, limits, unprivileged } = self;
+        let layers = [
+            (landlock > 0, "Landlock"),
+            (seccomp, "seccomp"),
+            (limits, "limits of memory"),
+            (unprivileged, "a user id other than root"),
+        ];
+        layers.into_iter().filter(|(active, _)| !active).map(|(_, name)| name).collect()
+    }
+
     /// Layers that are active in both.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
@@ -88,7 +100,7 @@ mod tests {
             Layers { unprivileged: false, ..all },
         ] {
             assert_eq!(Level::of(one), Level::Medium, "{one:?}");
-            assert_eq!(all.and(one), one);
+            assert_eq!((all.and(one), one.missing().len()), (one, 1));
         }
         assert_eq!(Level::of(Layers { landlock: 0, seccomp: false, ..all }), Level::Weak);
         assert_eq!(Level::of(Layers { limits: false, ..all }), Level::None);

@@ -11,7 +11,7 @@ mod spot;
 mod triangle;
 
 use crate::math::{Rgb, Vec3};
-use crate::probe::{self, ScriptedLight};
+use crate::probe::{self, HitRadiance, ScriptedLight};
 use crate::sampler::Sampler;
 
 pub(crate) use point::PointLight;
@@ -26,6 +26,8 @@ pub struct Light {
     shape: Shape,
     /// Only in builds for the grader's host.
     pub(crate) script: Option<ScriptedLight>,
+    /// What paths that hit the light find. Only in builds for the grader's host.
+    pub(crate) hit_radiance: HitRadiance,
 }
 
 #[derive(Clone, Debug)]
@@ -66,7 +68,11 @@ pub struct Emission<'a> {
 impl Light {
     #[inline]
     pub(crate) fn new(index: usize, shape: Shape) -> Self {
-        Self { index, shape, script: None }
+        let radiance = match &shape {
+            Shape::Triangle(light) => light.radiance,
+            Shape::Point(_) | Shape::Spot(_) => Rgb::BLACK,
+        };
+        Self { index, shape, script: None, hit_radiance: HitRadiance::new(radiance) }
     }
 
     /// The same light at another index.
@@ -104,7 +110,7 @@ impl Light {
         let Shape::Triangle(light) = &self.shape else { return None };
         Some(Emission {
             light: self,
-            radiance: light.radiance,
+            radiance: self.hit_radiance.get(light.radiance),
             pdf_area: self.script.map_or(light.pdf_area(), |script| script.pdf_area_on_hit()),
             cos_light: light.cos_towards(wo),
         })

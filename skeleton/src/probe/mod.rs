@@ -9,7 +9,7 @@
 //! Anything that an integrator derives from positions and normals therefore stays correct. Scripts are stateless and
 //! draw no random numbers, so that all random numbers drawn are the integrator's own.
 //!
-//! **Switches** disable one way of finding light. They belong to a scene.
+//! **Hit radiances** are what paths find when they hit lights. In a scene for light samples only they are black.
 //!
 //! **Strata** distribute the integrator's own random numbers evenly over many paths.
 //!
@@ -17,6 +17,7 @@
 //! counters and recordings require the [`Key`], which the host takes before any code of a submission runs.
 
 mod count;
+mod hit_radiance;
 mod record;
 mod script;
 mod strata;
@@ -25,6 +26,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 pub use count::{Counts, take_counts};
 pub(crate) use count::{count_light_sample, count_ray, count_shadow_ray};
+pub(crate) use hit_radiance::HitRadiance;
 pub(crate) use record::record;
 pub use record::{Call, Recording, Value, record_print, start_recording, take_recording};
 pub use script::{ScriptedBsdf, ScriptedLight, ScriptedSampling, ScriptedValue};
@@ -41,23 +43,5 @@ impl Key {
     pub fn take() -> Option<Self> {
         static TAKEN: AtomicBool = AtomicBool::new(false);
         (!TAKEN.swap(true, Ordering::Relaxed)).then_some(Self(()))
-    }
-}
-
-/// The ways of finding light that are enabled in a scene: all, unless one is disabled here.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Switches {
-    /// False if [`Hit::emission`](crate::scene::Hit::emission) is black. Lights keep their place in the scene and are
-    /// still reported by it, since a shadow ray may be an ordinary ray that checks which light it hits.
-    pub emission_on_hit: bool,
-}
-
-impl Switches {
-    /// All ways of finding light are enabled.
-    pub const ALL: Self = Self { emission_on_hit: true };
-
-    #[inline]
-    pub(crate) fn emission_on_hit(self) -> bool {
-        self.emission_on_hit
     }
 }

@@ -8,7 +8,6 @@ use super::{
 use crate::accel::Accel;
 use crate::light::{Light, PointLight, Shape, SpotLight, TriangleLight};
 use crate::math::{Rgb, Vec3};
-use crate::probe::Switches;
 
 impl Scene {
     /// Builds the acceleration structure and the lights.
@@ -147,7 +146,6 @@ impl Builder {
             defaults: description.defaults,
             features,
             warnings,
-            switches: Switches::ALL,
         }
     }
 

@@ -70,10 +70,7 @@ impl<'a> Hit<'a> {
     /// the back of one.
     #[inline]
     pub fn emission(&self) -> Option<Emission<'a>> {
-        let mut emission = self.light()?.emission(self.wo)?;
-        if !self.scene.switches.emission_on_hit() {
-            emission.radiance = Rgb::BLACK;
-        }
+        let emission = self.light()?.emission(self.wo)?;
         probe::record(|| recorded_emission(self.point, &emission));
         Some(emission)
     }

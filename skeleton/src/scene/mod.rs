@@ -15,7 +15,7 @@ use crate::accel::Accel;
 use crate::camera::Camera;
 use crate::light::Light;
 use crate::math::{Rgb, Vec2, Vec3};
-use crate::probe::{self, ScriptedBsdf, Switches};
+use crate::probe::{self, ScriptedBsdf};
 use crate::ray::Ray;
 
 pub use crate::camera::CameraDescription;
@@ -36,7 +36,6 @@ pub struct Scene {
     defaults: Defaults,
     features: Features,
     warnings: Vec<String>,
-    switches: Switches,
 }
 
 /// The data of a triangle that a hit needs.

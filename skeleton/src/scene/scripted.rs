@@ -2,12 +2,13 @@
 #![cfg(feature = "probe")]
 
 use super::Scene;
-use crate::probe::{ScriptedBsdf, ScriptedLight, Switches};
+use crate::probe::{HitRadiance, ScriptedBsdf, ScriptedLight};
 
 impl Scene {
-    /// Sets which ways of finding light are enabled.
-    pub fn set_switches(&mut self, switches: Switches) {
-        self.switches = switches;
+    /// Makes all lights black for paths that hit them, so that only light samples find light. The lights keep their place
+    /// in the scene and are still reported, since a shadow ray may be an ordinary ray that checks which light it hits.
+    pub fn blacken_hits(&mut self) {
+        self.lights.iter_mut().for_each(|light| light.hit_radiance = HitRadiance::BLACK);
     }
 
     /// Scripts materials and lights: one entry for each material of the description, and one for each light in the

@@ -29,12 +29,12 @@ pub(super) fn complete(
     report: &mut Report,
     result_dir: &ResultDir,
 ) -> Result<()> {
-    let Options { seed, threads, .. } = grader.options();
+    let (seed, Options { threads, .. }) = (grader.public_seed(), grader.options());
     let mut shown = Vec::new();
     if let Some(program) = program {
         let solution = grader.oracle().map(Oracle::program).transpose()?;
-        report.convergence = Some(brief(workspace, program, solution.as_deref(), *seed)?);
-        shown = pictures(workspace, program, report, *threads, *seed, SCENES)?;
+        report.convergence = Some(brief(workspace, program, solution.as_deref(), seed)?);
+        shown = pictures(workspace, program, report, *threads, seed, SCENES)?;
     }
     save(&shown, &result_dir.pictures())?;
     match thumbnail(&shown) {

@@ -40,6 +40,8 @@ pub(super) const PREVIEW: &str = "preview";
 pub struct RunOptions {
     /// Options of each grade.
     pub grade: Options,
+    /// True if reports tell the seed to staff only.
+    pub secret_seed: bool,
     /// Number of submissions that are graded at once.
     pub jobs: usize,
     /// Result folder.
@@ -130,6 +132,7 @@ pub fn run(
     mut save: impl FnMut(&[&Row]) -> Result<()>,
 ) -> Result<Outcome> {
     let grader = Grader::new(workspace, &options.grade)?;
+    let grader = if options.secret_seed { grader.with_secret_seed() } else { grader };
     let starter_text = workspace.starter(&options.grade.assignment)?;
     let student_file = workspace.student_file();
     let student_file = student_file.strip_prefix(workspace.root()).unwrap_or(&student_file);

@@ -209,7 +209,7 @@ impl ShardFile {
             ("compiler", toolchain.clone()),
             ("rubric", rubric.clone()),
             ("references", references.clone()),
-            ("seed", seed.to_string()),
+            ("seed", seed.map_or_else(|| "secret".to_owned(), |seed| seed.to_string())),
             ("roster", format!("{} {:?}", self.roster, self.members)),
             ("deadline, extensions or receipt times", self.dates.clone()),
         ]

@@ -3,14 +3,14 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use super::refuse::{Look, look};
 use super::scratch::Scratch;
 use super::shape::Shape;
 use super::{Framework, refuse};
-use crate::sandbox::{self, Account, Layers, Limits, Profile};
+use crate::sandbox::{self, Account, BUSY, Layers, Limits, Profile, Watch};
 use serde::Deserialize;
 use verdict::error::{Error, Result};
 use verdict::submission::BuildFailure;
@@ -31,12 +31,19 @@ pub struct SubmissionProgram {
     /// Sandbox layers of rustc, if it was called now.
     pub layers: Layers,
     folder: Scratch,
+    /// Time for which its processes have waited without computing.
+    waited: Arc<Mutex<Duration>>,
 }
 
 impl SubmissionProgram {
     /// User that it runs as.
     pub(crate) fn account(&self) -> &Arc<Account> {
         self.folder.account()
+    }
+
+    /// Time for which its processes have waited without computing, shared by all of them.
+    pub(crate) fn waited(&self) -> &Arc<Mutex<Duration>> {
+        &self.waited
     }
 
     /// Restores a program from the bytes of its executable.
@@ -55,6 +62,7 @@ impl SubmissionProgram {
             limits: *limits,
             layers: Layers::default(),
             folder,
+            waited: Arc::default(),
         })
     }
 }
@@ -225,7 +233,14 @@ fn compile_once(
     if status.success() {
         let executable = folder.path().join(executable_name());
         let limits = *limits;
-        return Ok(Ok(SubmissionProgram { executable, compile_time, limits, layers, folder }));
+        return Ok(Ok(SubmissionProgram {
+            executable,
+            compile_time,
+            limits,
+            layers,
+            folder,
+            waited: Arc::default(),
+        }));
     }
     let messages = read_messages(&folder.path().join(MESSAGES))
         .map_err(|error| trouble("rustc's messages are gone", error))?;
@@ -235,12 +250,13 @@ fn compile_once(
 /// Runs rustc; `None` if it had to be ended.
 fn run_in_time(rustc: &mut Command, time: Duration) -> std::io::Result<Option<ExitStatus>> {
     let mut rustc = rustc.spawn()?;
-    let deadline = Instant::now() + time;
+    let watch = Watch::start(&rustc);
     loop {
         if let Some(status) = rustc.try_wait()? {
             return Ok(Some(status));
         }
-        if Instant::now() >= deadline {
+        let spent = watch.spent(&rustc);
+        if spent.computed >= time || spent.waited >= time || spent.wall >= time * BUSY {
             sandbox::end(&mut rustc);
             rustc.wait()?;
             return Ok(None);

@@ -45,8 +45,8 @@ pub(super) struct Kept {
 struct Contents {
     arty: PathBuf,
     host: PathBuf,
-    /// Sizes of all libraries, in bytes.
-    sizes: BTreeMap<PathBuf, u64>,
+    /// BLAKE3 of all libraries.
+    hashes: BTreeMap<PathBuf, String>,
 }
 
 const CONTENTS: &str = "contents.json";
@@ -67,10 +67,12 @@ impl Kept {
         kept.is_whole().then_some(kept)
     }
 
-    /// True if all libraries are there and have their sizes.
+    /// True if all libraries are there, with the content that was kept.
     pub(super) fn is_whole(&self) -> bool {
-        let size = |name: &PathBuf| Some(std::fs::metadata(self.libraries().join(name)).ok()?.len());
-        self.contents.sizes.iter().all(|(name, &bytes)| size(name) == Some(bytes))
+        let is_same = |name: &PathBuf, hash: &String| {
+            hash_of(&self.libraries().join(name)).is_ok_and(|found| found == *hash)
+        };
+        self.contents.hashes.iter().all(|(name, hash)| is_same(name, hash))
     }
 
     /// Adds what Cargo has built to the cache, and removes what is damaged or has not been used for long.
@@ -81,15 +83,15 @@ impl Kept {
         let in_use = File::create(folder.path().join(IN_USE))?;
         in_use.try_lock()?;
         std::fs::create_dir(folder.path().join(LIBRARIES))?;
-        let mut sizes = BTreeMap::new();
+        let mut hashes = BTreeMap::new();
         for library in &built.all {
             let name = name_of(library)?;
             let copy = folder.path().join(LIBRARIES).join(&name);
             // Cargo links its files likewise, and replaces them as a whole.
             std::fs::hard_link(library, &copy).or_else(|_| std::fs::copy(library, &copy).map(drop))?;
-            sizes.insert(name, std::fs::metadata(&copy)?.len());
+            hashes.insert(name, hash_of(&copy)?);
         }
-        let contents = Contents { arty: name_of(&built.arty)?, host: name_of(&built.host)?, sizes };
+        let contents = Contents { arty: name_of(&built.arty)?, host: name_of(&built.host)?, hashes };
         std::fs::write(folder.path().join(CONTENTS), serde_json::to_vec_pretty(&contents)?)?;
         let place = cache_dir.join(key);
         remove_unused(&place);
@@ -116,6 +118,12 @@ impl Kept {
     pub(super) fn libraries(&self) -> PathBuf {
         self.folder.join(LIBRARIES)
     }
+}
+
+fn hash_of(file: &Path) -> Result<String> {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update_reader(File::open(file)?)?;
+    Ok(hasher.finalize().to_hex().to_string())
 }
 
 fn name_of(file: &Path) -> Result<PathBuf> {
@@ -182,6 +190,8 @@ mod tests {
         for (name, damage) in [
             ("libarty.rlib", Some("cut")),
             ("libglam.rlib", Some("longer than it was")),
+            // As long as it was.
+            ("libarty.rlib", Some("libarty.rlib: two")),
             ("libglam.rlib", None),
         ] {
             let cache_dir = tempfile::tempdir().expect("a temporary folder");

@@ -31,9 +31,33 @@ pub(super) struct Scratch {
     account: Arc<Account>,
 }
 
+/// Minimum free space in the folder for temporary files, in bytes: several times what a submission's program and the
+/// linker's files take. With less, a correct submission may not compile.
+const MIN_SPACE: u64 = 64 << 20;
+
+/// Refuses a folder for temporary files that is nearly full, before that is taken for a fault of a submission.
+fn require_space(folder: &Path) -> error::Result<()> {
+    #[cfg(unix)]
+    if let Ok(system) = rustix::fs::statvfs(folder) {
+        let free = system.f_bavail.saturating_mul(system.f_frsize);
+        if free < MIN_SPACE {
+            return Err(Error::Harness(format!(
+                "the folder for temporary files, {}, has {} MB left, and {} MB are needed: free some, or set TMPDIR to \
+                 another folder",
+                folder.display(),
+                free >> 20,
+                MIN_SPACE >> 20
+            )));
+        }
+    }
+    let _ = folder;
+    Ok(())
+}
+
 impl Scratch {
     /// Makes a folder and takes a user id for it. The first call removes folders of interrupted graders.
     pub(super) fn new() -> error::Result<Self> {
+        require_space(&std::env::temp_dir())?;
         let account = Arc::new(Account::take()?);
         Self::of(account).map_err(|error| Error::Harness(format!("no temporary folder: {error}")))
     }

@@ -2,8 +2,10 @@
 
 use std::time::Duration;
 
-use host::protocol::{Rendered, Replayed, Response};
+use arty::scene::SceneDescription;
+use host::protocol::{RenderJob, Rendered, Replayed, Response};
 use verdict::check::Fault;
+use verdict::error::Error;
 use verdict::text::clean;
 
 use crate::job::JobError;
@@ -72,4 +74,40 @@ pub(super) fn check_shape(
         return Err(Fault::Malformed("a mean is not finite".to_owned()));
     }
     Ok(rendered)
+}
+
+/// Compares the rays of a rendering with what its paths can need. A path without rays finds no light; one that samples
+/// every light at every bounce, and traces a ray of its own for the BSDF, needs no more than `enough`.
+pub(super) fn check_rays(
+    rendered: Rendered,
+    job: &RenderJob,
+    lights: usize,
+) -> std::result::Result<Rendered, Fault> {
+    let means = rendered.batches.iter().flatten();
+    let lit = means.filter(|mean| mean.iter().any(|&value| value != 0.0)).count() as u64;
+    if rendered.rays < lit {
+        return Err(Fault::TooFewRays);
+    }
+    let paths = job.seeds.len() as f64 * f64::from(job.width) * f64::from(job.height) * job.samples as f64;
+    let bounces = f64::from(job.settings.max_bounces) + 1.0;
+    let (rays, enough) = (rendered.rays as f64 / paths.max(1.0), bounces * (2.0 + lights.max(1) as f64));
+    if rays > enough { Err(Fault::TooManyRays { rays, enough }) } else { Ok(rendered) }
+}
+
+/// Number of lights in a scene: those of its own, and triangles that emit.
+pub(super) fn number_of_lights(scene: &SceneDescription) -> usize {
+    let emits = |material: u32| {
+        scene.materials.get(material as usize).is_some_and(|material| !material.emission.is_black())
+    };
+    let triangles = scene.meshes.iter().flat_map(|mesh| &mesh.triangles);
+    scene.lights.len() + triangles.filter(|triangle| emits(triangle.material)).count()
+}
+
+/// The error of a job for which the machine had hardly any time.
+pub(super) fn too_busy(wall: Duration) -> Error {
+    Error::Harness(format!(
+        "the machine is too busy: after {} s a submission has not had the processor time of a single job; grade again with \
+         fewer --jobs",
+        wall.as_secs()
+    ))
 }

@@ -25,6 +25,19 @@ pub(super) fn spawn(command: &mut Command) -> std::io::Result<Child> {
     command.spawn()
 }
 
+/// True if the kernel ended a process because it started a thread
+/// ([`host_filters`](host::confine::seccomp::host_filters)).
+pub(super) fn started_thread(status: ExitStatus) -> bool {
+    #[cfg(target_os = "linux")]
+    return std::os::unix::process::ExitStatusExt::signal(&status)
+        == Some(rustix::process::Signal::SYS.as_raw());
+    #[cfg(not(target_os = "linux"))]
+    {
+        let _ = status;
+        false
+    }
+}
+
 /// Exit status of a process, and what it may mean.
 pub(super) fn describe(status: ExitStatus) -> String {
     #[cfg(unix)]

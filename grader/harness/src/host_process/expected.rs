@@ -46,7 +46,7 @@ impl Expected {
     /// The answer to a request.
     pub(super) fn answer_to(request: &Request<'_>) -> Self {
         match request {
-            Request::Scene(_) => Self::of(0, None),
+            Request::Scene(..) => Self::of(0, None),
             Request::Render(job) => {
                 let pixels = u64::from(job.width) * u64::from(job.height);
                 let batches = job.seeds.len() as u64;
@@ -106,7 +106,7 @@ mod tests {
 
     use arty::integrator::{Settings, Technique};
     use host::protocol::{
-        AuditJob, AuditRun, AuditedRun, ProbeJob, ProbedPath, RenderJob, Rendered, Switches, write_message,
+        AuditJob, AuditRun, AuditedRun, ProbeJob, ProbedPath, RenderJob, Rendered, write_message,
     };
 
     use super::*;
@@ -120,7 +120,6 @@ mod tests {
             seeds: (0..batches).collect(),
             first_sample: 0,
             samples: 1,
-            switches: Switches::default(),
         }
     }
 
@@ -131,6 +130,7 @@ mod tests {
             non_finite: 0,
             negative: 0,
             first_anomalies,
+            rays: 0,
             cpu_seconds: 0.0,
             rays: 0,
         })

@@ -2,12 +2,11 @@
 
 use std::path::Path;
 use std::process::{Child, Command};
-use std::time::Duration;
 
 use verdict::sandbox::Layers;
 
-use super::Limits;
 use super::process::Profile;
+use super::{Limits, Usage};
 use verdict::error::Result;
 
 /// Sandbox support of this machine: none.
@@ -35,8 +34,8 @@ pub(super) fn confine(_: &mut Command, _: Profile<'_>, _: &Limits) -> Result<Lay
     Ok(Layers::default())
 }
 
-/// Processor time of a process over all threads: unknown here.
-pub(crate) fn processor_time(_: &Child) -> Option<Duration> {
+/// What a process has used of the processors: unknown here.
+pub(crate) fn usage(_: &Child) -> Option<Usage> {
     None
 }
 

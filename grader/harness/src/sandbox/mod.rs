@@ -13,6 +13,7 @@
 mod grants;
 mod limits;
 mod process;
+mod watch;
 
 #[cfg(not(target_os = "linux"))]
 mod elsewhere;
@@ -28,5 +29,6 @@ pub use grants::linker;
 pub use limits::Limits;
 pub(crate) use process::{Profile, blame_machine, end, prepare};
 pub use system::Machine;
-pub(crate) use system::{Account, confirmed, out_of_memory_kills, processor_time};
+pub(crate) use system::{Account, confirmed, out_of_memory_kills};
 pub use verdict::sandbox::{Layers, Level};
+pub(crate) use watch::{BUSY, Usage, Watch};

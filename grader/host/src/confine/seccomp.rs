@@ -7,13 +7,18 @@ use seccompiler::{
     BpfProgram, SeccompAction, SeccompCmpArgLen, SeccompCmpOp, SeccompCondition, SeccompFilter, SeccompRule,
 };
 
-/// The filters of a host, to be applied in this order: the first makes the C library fall back from `clone3` to
-/// `clone`, whose arguments can be inspected; the second allows only the system calls of computing.
+/// The filters of a host whose threads are running, to be applied in this order: the first makes the C library fall back
+/// from `clone3` to `clone`, whose arguments can be inspected; the second ends a process that starts a thread; the third
+/// allows only the system calls of computing.
+///
+/// The kernel ends such a process with the signal `SIGSYS`, which nothing else here sends.
 ///
 /// `None` if the processor architecture is not supported.
-pub fn host_filters() -> Option<[BpfProgram; 2]> {
+pub fn host_filters() -> Option<[BpfProgram; 3]> {
     let computing = computing(std::process::id())?;
-    Some([denying(&[libc::SYS_clone3], libc::ENOSYS)?, allowing(computing)?])
+    let threads = BTreeMap::from([(libc::SYS_clone, vec![thread()?])]);
+    let no_threads = filter(threads, SeccompAction::Allow, SeccompAction::KillProcess)?;
+    Some([denying(&[libc::SYS_clone3], libc::ENOSYS)?, no_threads, allowing(computing)?])
 }
 
 /// The filters that the grader applies to a process between fork and exec, in this order: they allow what
@@ -97,10 +102,9 @@ fn computing(own: u32) -> Option<Rules> {
     .into_iter()
     .map(|call| (call, Vec::new()))
     .collect();
-    let thread = u64::try_from(CLONE_THREAD).ok()?;
     let execute = u64::try_from(PROT_EXEC).ok()?;
     // Threads, but not processes.
-    rules.insert(SYS_clone, vec![one(condition(0, SeccompCmpOp::MaskedEq(thread), thread)?)?]);
+    rules.insert(SYS_clone, vec![thread()?]);
     // Memory, but not executable memory.
     for call in [SYS_mmap, SYS_mprotect] {
         rules.insert(call, vec![one(condition(2, SeccompCmpOp::MaskedEq(execute), 0)?)?]);
@@ -166,6 +170,12 @@ fn loading() -> Option<Rules> {
     rules.insert(SYS_fcntl, commands.into_iter().map(command).collect::<Option<_>>()?);
     rules.get_mut(&SYS_prctl)?.push(one(equals(0, u64::try_from(PR_SET_NO_NEW_PRIVS).ok()?)?)?);
     Some(rules)
+}
+
+/// Matches a `clone` that starts a thread, and none that starts a process.
+fn thread() -> Option<SeccompRule> {
+    let flag = u64::try_from(libc::CLONE_THREAD).ok()?;
+    one(condition(0, SeccompCmpOp::MaskedEq(flag), flag)?)
 }
 
 fn condition(index: u8, comparison: SeccompCmpOp, value: u64) -> Option<SeccompCondition> {

@@ -133,9 +133,10 @@ fn begin(task: &Task, spec: &CheckSpec, verdict: Verdict, reason: Reason) -> Che
 
 fn reason_of(fault: &Fault) -> Reason {
     match fault {
-        Fault::Timeout(_) | Fault::TooSlow(_) => Reason::Timeout,
+        Fault::Timeout(_) | Fault::TooSlow(_) | Fault::Waiting(_) => Reason::Timeout,
         Fault::Panic(_) | Fault::Crash(_) => Reason::Crash,
-        Fault::Malformed(_) => Reason::Violation,
+        Fault::TooManyRays { .. } => Reason::RayBudget,
+        Fault::TooFewRays | Fault::Threads | Fault::Malformed(_) => Reason::Violation,
     }
 }
 

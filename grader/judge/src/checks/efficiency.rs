@@ -2,16 +2,20 @@
 //!
 //! Means do not show it, since BSDF sampling is unbiased wherever lights have an area; variance does. In scenes where
 //! a technique has at most 1/20 of the variance of the techniques it is made of, the submission's variance is compared
-//! with that of each of them in the reference, at equal sample counts.
+//! with that of each of them in the reference, at equal sample counts. A submission that averages several paths per
+//! sample is measured at an equal number of rays: whole paths of BSDF sampling are not a light sample.
+//!
+//! With `emission_on_hit: off`, hits contribute nothing to next event estimation, and its noise is that of light samples
+//! alone, whatever a submission does with emission.
 
 use arty::integrator::Technique;
 use arty::sampler::batch_seed;
 use host::protocol::RenderJob;
 use verdict::check::{CheckKind, Evidence, Noise, Reason, VarianceOf, WhyNot};
 use verdict::error::Error;
-use verdict::rubric::{CheckSpec, rivals};
+use verdict::rubric::{CheckSpec, EmissionOnHit, rivals};
 
-use super::context::settings_of;
+use super::context::{settings_of, switches_of};
 use super::{Check, CheckOutcome, GradeContext, JobError, Observation, Quantity, SceneWithReference};
 use crate::reference::SIZE;
 use crate::statistics::batches::Batches;
@@ -34,6 +38,10 @@ const SAMPLES: u64 = 8;
 /// Minimum variance, relative to the solution, that is reported for a correct submission.
 const NOISIER_RATIO: f64 = 1.5;
 
+/// Rays per bounce that a sample may take before its variance is compared at an equal number of rays: a shadow ray, the
+/// next ray of the path and one ray for multiple importance sampling.
+const RAYS_PER_BOUNCE: f64 = 3.0;
+
 pub(super) struct Efficiency;
 
 impl Check for Efficiency {
@@ -43,6 +51,10 @@ impl Check for Efficiency {
 
     fn techniques(&self) -> &'static [Technique] {
         &[Technique::Nee, Technique::Mis]
+    }
+
+    fn isolates_next_event_estimation(&self) -> bool {
+        true
     }
 
     fn recommended_bounces(&self, _: u32) -> u32 {
@@ -67,16 +79,25 @@ impl Check for Efficiency {
         let own = moments(spec.technique)?;
         let seed = context.seed_of(spec);
         let mut process = context.start()?;
-        let loaded = process.load(&scene.description)?;
+        let loaded = process.load_with(&scene.description, switches_of(spec))?;
         let seeds = (0..BATCHES).map(|batch| batch_seed(seed, batch)).collect();
         let job = RenderJob::new(loaded, settings_of(spec), [SIZE.0, SIZE.1], seeds, SAMPLES);
         let mut batches = Batches::default();
-        batches.extend(&process.render(&job)?.batches, SAMPLES);
+        let rendered = process.render(&job)?;
+        batches.extend(&rendered.batches, SAMPLES);
         let samples = batches.samples_per_pixel() * u64::from(SIZE.0 * SIZE.1);
 
-        let ratio_to = |expected: &Expected| VarianceRatio::new(&batches, &own.mean, &expected.deviation);
+        let excess = excess_of_rays(rendered.rays as f64 / samples as f64, spec.max_bounces);
+        let ratio_to = |expected: &Expected| {
+            let ratio = VarianceRatio::new(&batches, &own.mean, &expected.deviation)?;
+            Some(VarianceRatio { log: ratio.log + excess.ln(), ..ratio })
+        };
         let mut noise = Noise { ratios: Vec::new(), as_noisy_as: None, is_noisier: false };
         let Some(ratio) = ratio_to(&own) else {
+            // Black: area lights have not been begun, and the tests of means say so. Nothing else was sampled instead.
+            if spec.emission_on_hit == EmissionOnHit::Off {
+                return Ok(CheckOutcome::new(Reason::None, Evidence::Efficiency(noise), samples));
+            }
             return Ok(CheckOutcome::new(Reason::Efficiency, Evidence::Efficiency(noise), samples));
         };
         noise.ratios.push(VarianceOf { technique: spec.technique, ratio: ratio.ratio() });
@@ -97,8 +118,12 @@ impl Check for Efficiency {
             && nearest.0 != spec.technique
             && nearest.1 < MISSING_TECHNIQUE_RATIO.ln();
         noise.as_noisy_as = is_missing.then_some(nearest.0);
+        // Without emission on hit there is no other light than that of light samples: so much noise cannot be theirs.
+        if spec.emission_on_hit == EmissionOnHit::Off && ratio.at_least(LEVEL) > MIN_RIVAL_RATIO {
+            noise.as_noisy_as = Some(Technique::Bsdf);
+        }
         noise.is_noisier = ratio.at_least(LEVEL) > NOISIER_RATIO;
-        let reason = if is_missing { Reason::Efficiency } else { Reason::None };
+        let reason = if noise.as_noisy_as.is_some() { Reason::Efficiency } else { Reason::None };
         Ok(CheckOutcome::new(reason, Evidence::Efficiency(noise), samples))
     }
 
@@ -109,6 +134,11 @@ impl Check for Efficiency {
         };
         noise.ratios.iter().map(of).collect()
     }
+}
+
+/// Factor by which a mean of `rays` rays per sample exceeds what one path needs; 1 if it does not.
+fn excess_of_rays(rays: f64, max_bounces: u32) -> f64 {
+    (rays / (1.0 + RAYS_PER_BOUNCE * f64::from(max_bounces))).max(1.0)
 }
 
 /// Checks that the scene distinguishes the technique from at least one other by its variance.
@@ -136,6 +166,23 @@ fn relative_variance(expected: &Expected) -> f64 {
 
 fn moments(scene: &SceneWithReference, spec: &CheckSpec, technique: Technique) -> Result<Expected, Error> {
     let mut spec = spec.clone();
+    // BSDF sampling finds nothing in lights that are black when hit: it is compared as it is otherwise.
+    if technique == Technique::Bsdf {
+        spec.emission_on_hit = EmissionOnHit::On;
+    }
     spec.technique = technique;
     super::mean_bias::expected(&spec, &scene.reference)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_several_paths_per_sample_exceed_the_rays_of_one() {
+        // A camera ray, a shadow ray, the next ray and one for multiple importance sampling.
+        assert_eq!([2.0, 3.0, 4.0].map(|rays| excess_of_rays(rays, 1)), [1.0; 3]);
+        // Twelve paths of BSDF sampling.
+        assert_eq!(excess_of_rays(24.0, 1), 6.0);
+    }
 }

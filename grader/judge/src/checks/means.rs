@@ -62,8 +62,11 @@ impl<'a> Picture<'a> {
         anomalies: &mut Anomalies,
     ) -> Result<Judgement, JobError> {
         let mut process = context.start()?;
-        let scenes =
-            self.scenes.iter().map(|scene| process.load(scene)).collect::<Result<Vec<u32>, JobError>>()?;
+        let scenes = self
+            .scenes
+            .iter()
+            .map(|scene| process.load_with(scene, self.switches))
+            .collect::<Result<Vec<u32>, JobError>>()?;
         self.judge_in(&mut process, &scenes, anomalies)
     }
 
@@ -116,7 +119,6 @@ impl<'a> Picture<'a> {
         for seeds in seeds.chunks(per_job) {
             let job = RenderJob {
                 first_sample: request.first_sample,
-                switches: self.switches,
                 ..RenderJob::new(scene, self.settings, [SIZE.0, SIZE.1], seeds.to_vec(), request.samples)
             };
             let rendered = process.render(&job)?;

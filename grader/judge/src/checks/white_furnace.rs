@@ -16,7 +16,7 @@ use verdict::check::{BounceEnergy, CheckKind, Evidence, FurnaceTest, WhyNot};
 use verdict::error::Error;
 use verdict::rubric::CheckSpec;
 
-use super::context::replay_of;
+use super::context::{replay_of, switches_of};
 use super::means::{self, Anomalies, Picture};
 use super::{
     Check, CheckOutcome, GradeContext, JobError, Observation, Quantity, SceneWithReference, mean_bias,
@@ -45,7 +45,7 @@ impl Check for WhiteFurnace {
         let noise = mean_bias::expected(spec, &scene.reference)?;
         let scenes = [&scene.description];
         let mut process = context.start()?;
-        let loaded = [process.load(&scene.description)?];
+        let loaded = [process.load_with(&scene.description, switches_of(spec))?];
         let (mut anomalies, mut judgements) = (Anomalies::default(), Vec::new());
         for &order in &orders {
             let expected = Expected {

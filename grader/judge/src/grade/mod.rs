@@ -113,7 +113,8 @@ impl Grader {
             framework: framework.hash.clone(),
             rubric: hash_of_file(&rubric_file)?,
             references: hash_of_references(&scenes),
-            seed: options.seed,
+            seed: Some(options.seed),
+            secret_seed: false,
             toolchain: framework.toolchain.clone(),
             threads: options.threads,
         };
@@ -155,6 +156,18 @@ impl Grader {
     /// Number of selected checks, of which a grade may skip some.
     pub fn planned(&self) -> usize {
         select(&self.rubric, &self.options.only).map_or(0, |selected| selected.len())
+    }
+
+    /// The same grader, whose reports tell the seed to staff only.
+    #[must_use]
+    pub fn with_secret_seed(mut self) -> Self {
+        self.provenance.secret_seed = true;
+        self
+    }
+
+    /// Seed of what everybody may see: that of the grade, unless it is secret.
+    pub fn public_seed(&self) -> u64 {
+        if self.provenance.secret_seed { 1 } else { self.options.seed }
     }
 
     /// Versions and seeds that all grades depend on.

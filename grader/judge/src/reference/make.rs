@@ -52,7 +52,7 @@ pub fn make(
     for (&view, techniques) in wanted {
         let max_bounces = view.max_bounces;
         let emission_on_hit = view.emission_on_hit == EmissionOnHit::On;
-        renderer.switches = Switches { emission_on_hit };
+        renderer.load(description, Switches { emission_on_hit })?;
         let technique = if emission_on_hit { Technique::Mis } else { Technique::Nee };
         let settings = Settings { technique, max_bounces };
         let batches = renderer.render(SIZE, settings, effort.batches, effort.samples, seed)?;
@@ -127,14 +127,20 @@ pub fn picture(
 struct Renderer {
     process: HostProcess,
     scene: u32,
-    switches: Switches,
 }
 
 impl Renderer {
     fn start(program: &SubmissionProgram, description: &SceneDescription, threads: usize) -> Result<Self> {
         let mut process = HostProcess::start(program, threads)?;
         let scene = process.load(description).map_err(|error| error.of_trusted("the solution"))?;
-        Ok(Self { process, scene, switches: Switches::default() })
+        Ok(Self { process, scene })
+    }
+
+    /// Loads the scene again, with other switches.
+    fn load(&mut self, description: &SceneDescription, switches: Switches) -> Result<()> {
+        let loaded = self.process.load_with(description, switches);
+        self.scene = loaded.map_err(|error| error.of_trusted("the solution"))?;
+        Ok(())
     }
 
     /// Renders batches, in jobs that stay well within the time limit.
@@ -151,10 +157,7 @@ impl Renderer {
         let per_job = (1_000_000 / (pixels * samples)).max(1) as usize;
         let mut means = Vec::with_capacity(batches as usize);
         for seeds in seeds.chunks(per_job) {
-            let job = RenderJob {
-                switches: self.switches,
-                ..RenderJob::new(self.scene, settings, [width, height], seeds.to_vec(), samples)
-            };
+            let job = RenderJob::new(self.scene, settings, [width, height], seeds.to_vec(), samples);
             let rendered = self.process.render(&job).map_err(|error| error.of_trusted("the solution"))?;
             if rendered.non_finite + rendered.negative > 0 {
                 let what = format!("{:?}", rendered.first_anomalies.first());

@@ -29,11 +29,11 @@ pub fn follow(
     description: &SceneDescription,
 ) -> Result<ReplayedPath, JobError> {
     let mut process = HostProcess::start(program, 1)?;
-    let scene = process.load(description)?;
     let ReplayTarget { technique, max_bounces, size, seed, pixel, sample, emission_on_hit, .. } = *target;
     let settings = Settings { technique, max_bounces };
     let switches = Switches { emission_on_hit: emission_on_hit == EmissionOnHit::On };
-    let job = ReplayJob { scene, settings, size, seed, pixel, sample, switches };
+    let scene = process.load_with(description, switches)?;
+    let job = ReplayJob { scene, settings, size, seed, pixel, sample };
     let replayed = process.replay(job)?;
     Ok(ReplayedPath {
         radiance: replayed.radiance,

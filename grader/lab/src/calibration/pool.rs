@@ -37,12 +37,12 @@ impl Pool {
         seed: u64,
     ) -> Result<Self, JobError> {
         let mut process = HostProcess::start(program, threads)?;
-        let scene = process.load(scene)?;
+        let scene = process.load_with(scene, switches)?;
         let mut images = Vec::new();
         let start = Instant::now();
         for first in (0..count).step_by(PER_JOB as usize) {
             let seeds = (first..count.min(first + PER_JOB)).map(|batch| batch_seed(seed, batch)).collect();
-            let job = RenderJob { switches, ..RenderJob::new(scene, settings, SIZE.into(), seeds, 1) };
+            let job = RenderJob::new(scene, settings, SIZE.into(), seeds, 1);
             images.extend(process.render(&job)?.batches);
         }
         let paths = images.len() as f64 * f64::from(SIZE.0 * SIZE.1);

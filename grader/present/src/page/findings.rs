@@ -170,9 +170,22 @@ pub(super) fn skipped(report: &Report) -> Markup {
 /// Versions, seeds and times.
 pub(super) fn provenance(report: &Report) -> Markup {
     let (cost, sandbox, numerics) = (&report.cost, &report.sandbox, words::numerics(&report.numerics));
-    let Provenance { assignment, grader, framework, rubric, references, seed, toolchain, threads } =
-        &report.provenance;
-    let [seed, threads] = [seed.to_string(), threads.to_string()];
+    let Provenance {
+        assignment,
+        grader,
+        framework,
+        rubric,
+        references,
+        seed,
+        secret_seed,
+        toolchain,
+        threads,
+    } = &report.provenance;
+    let threads = threads.to_string();
+    let mut seed = seed.map_or_else(|| "known to your tutors".to_owned(), |seed| seed.to_string());
+    if *secret_seed && report.provenance.seed.is_some() {
+        seed += " (secret: not in the student's report)";
+    }
     let rows = [
         ("submission (BLAKE3)", &report.submission.hash),
         ("assignment", assignment),

@@ -14,7 +14,8 @@ pub fn repeat_command(report: &Report, check: &CheckId) -> String {
         [&report.submission.path, &report.provenance.assignment].map(|text| quote(Path::new(text)));
     let check = quote(Path::new(&check.to_string()));
     let assignment = if assignment.is_empty() { assignment } else { format!(" --assignment={assignment}") };
-    format!("cargo grade {path}{assignment} --seed={} --only={check}", report.provenance.seed)
+    let seed = report.provenance.seed.map_or_else(String::new, |seed| format!(" --seed={seed}"));
+    format!("cargo grade {path}{assignment}{seed} --only={check}")
 }
 
 /// The command that follows a path of a submission, whose path is given unquoted.

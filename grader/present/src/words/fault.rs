@@ -2,7 +2,7 @@
 
 use verdict::check::{Anomaly, Fault, Numerics};
 
-use super::number::{radiance, seconds};
+use super::number::{radiance, seconds, trimmed};
 
 /// What a submission did instead of answering.
 pub fn fault(fault: &Fault) -> String {
@@ -16,6 +16,24 @@ pub fn fault(fault: &Fault) -> String {
             )
         }
         Fault::Crash(status) => format!("the program ended unexpectedly ({status})"),
+        Fault::Waiting(time) => format!(
+            "the program waited for {} without computing: it sleeps, or waits for a lock that is never released",
+            seconds(*time)
+        ),
+        Fault::TooManyRays { rays, enough } => format!(
+            "the program traces {} rays per path on average; {enough:.0} are enough for a path of this length even if it \
+             samples every light at every bounce",
+            trimmed(*rays, 1)
+        ),
+        Fault::TooFewRays => {
+            "the program returns light for pixels without tracing a ray: images must come from paths"
+                .to_owned()
+        }
+        Fault::Threads => {
+            "the program starts threads, which no submission may do: each path is traced on the thread \
+                           that calls `radiance`"
+                .to_owned()
+        }
         Fault::Malformed(what) => format!("the program's answer was malformed ({what})"),
     }
 }

@@ -18,6 +18,19 @@ pub enum Fault {
     TooSlow(f64),
     /// Its process died with this status.
     Crash(String),
+    /// It waited for this many seconds without computing.
+    Waiting(f64),
+    /// It traced more rays per path than paths of this length can need.
+    TooManyRays {
+        /// Mean number of rays per path.
+        rays: f64,
+        /// Number that is enough for a path that samples every light at every bounce.
+        enough: f64,
+    },
+    /// It rendered an image that is not black with fewer rays than that takes.
+    TooFewRays,
+    /// It started a thread of its own, and was ended for it.
+    Threads,
     /// Its answer violated the protocol, as described.
     Malformed(String),
 }
@@ -31,6 +44,12 @@ impl std::fmt::Display for Fault {
                 write!(f, "it did not finish the first eighth of a job within {seconds:.0} s")
             }
             Self::Crash(status) => write!(f, "its process ended early ({status})"),
+            Self::Waiting(seconds) => write!(f, "it waited for {seconds:.0} s without computing"),
+            Self::TooManyRays { rays, enough } => {
+                write!(f, "it traced {rays:.1} rays per path, where {enough:.0} are enough")
+            }
+            Self::TooFewRays => write!(f, "it rendered without tracing rays"),
+            Self::Threads => write!(f, "it started a thread"),
             Self::Malformed(what) => write!(f, "its answer was not what was asked for ({what})"),
         }
     }

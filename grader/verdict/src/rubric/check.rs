@@ -126,6 +126,8 @@ impl CheckSpec {
     /// Techniques whose noise the reference must record.
     pub fn techniques(&self) -> Vec<Technique> {
         match self.check {
+            // Other techniques are compared with their noise where emission is on.
+            CheckKind::Efficiency if self.emission_on_hit == EmissionOnHit::Off => vec![self.technique],
             CheckKind::Efficiency => [&[self.technique], rivals(self.technique)].concat(),
             CheckKind::Randomness => Vec::new(),
             _ => vec![self.technique],

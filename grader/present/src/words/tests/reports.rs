@@ -108,7 +108,7 @@ fn commands_are_quoted_for_a_shell() {
     let mut report = report("x");
     report.submission.path = "Ann's file/render_pt.rs".to_owned();
     report.provenance.assignment = "05-nee-mis".to_owned();
-    report.provenance.seed = 3;
+    report.provenance.seed = Some(3);
     assert_eq!(
         repeat_command(&report, &id(CheckKind::MeanBias, "a b")),
         r"cargo grade 'Ann'\''s file/render_pt.rs' --assignment=05-nee-mis --seed=3 --only='mean-bias/a b/nee/8'"
