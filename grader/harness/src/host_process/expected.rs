@@ -132,7 +132,6 @@ mod tests {
             first_anomalies,
             rays: 0,
             cpu_seconds: 0.0,
-            rays: 0,
         })
     }
 

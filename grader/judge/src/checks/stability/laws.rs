@@ -228,7 +228,6 @@ mod tests {
             first_anomalies: Vec::new(),
             rays: 0,
             cpu_seconds: 0.0,
-            rays: 0,
         }
     }
 
