@@ -1,13 +1,17 @@
 //! Running the checks of a grade in parallel.
 
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
+
+use arty::integrator::Technique;
 
 use super::points::lost_to;
 use super::select::Selected;
 use crate::checks::{GradeContext, out_of_time, skipped};
 use verdict::check::{CheckResult, Reason};
 use verdict::error::{Error, Result};
+use verdict::rubric::{CheckSpec, Task};
 
 /// Maximum number of checks in parallel. Each has all threads of the grade, so that the last one leaves no core idle;
 /// more would only compete with each other.
@@ -28,9 +32,9 @@ pub(super) fn run(
 ) -> Result<Vec<CheckResult>> {
     let on_check = Mutex::new(on_check);
     let (timeouts, shortened) = (TimeoutTracker::default(), context.with_short_looks());
-    let run_one = |(number, (task, spec)), required: &[CheckResult]| {
+    let run_one = |(number, (task, spec)): (usize, (&Task, &CheckSpec)), required: &[CheckResult]| {
         let result = match lost_to(task, required) {
-            _ if timeouts.give_up() => out_of_time(task, spec),
+            _ if timeouts.give_up(spec.technique) => out_of_time(task, spec),
             None => context.run(task, spec)?,
             Some(lost_to) if spec.check.tests_generalisation() => skipped(task, spec, lost_to),
             Some(_) => CheckResult { short_look: true, ..shortened.run(task, spec)? },
@@ -78,27 +82,34 @@ fn in_parallel<T: Sync, R: Send>(
     }
 }
 
-/// Counts timeouts. A submission may be too slow in one scene and right in others, but the grade gives up on one that
-/// never finishes.
+/// Counts the timeouts of each technique. A submission may be too slow in one scene and right in others, or with one
+/// technique and right with others, but the grade gives up on a technique that never finishes.
 #[derive(Default)]
-struct TimeoutTracker {
-    late: AtomicUsize,
-    late_in_a_row: AtomicUsize,
+struct TimeoutTracker(Mutex<BTreeMap<&'static str, Timeouts>>);
+
+/// The timeouts of one technique.
+#[derive(Clone, Copy, Default)]
+struct Timeouts {
+    total: usize,
+    in_a_row: usize,
 }
 
 impl TimeoutTracker {
     fn record(&self, check: &CheckResult) {
+        let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let timeouts = all.entry(check.id.technique.name()).or_default();
         if check.reason == Reason::Timeout {
-            self.late.fetch_add(1, Ordering::Relaxed);
-            self.late_in_a_row.fetch_add(1, Ordering::Relaxed);
+            timeouts.total += 1;
+            timeouts.in_a_row += 1;
         } else {
-            self.late_in_a_row.store(0, Ordering::Relaxed);
+            timeouts.in_a_row = 0;
         }
     }
 
-    /// True after two timeouts in a row or four in total: the remaining checks are not run.
-    fn give_up(&self) -> bool {
-        self.late_in_a_row.load(Ordering::Relaxed) >= 2 || self.late.load(Ordering::Relaxed) >= 4
+    /// True after two timeouts of this technique in a row or four in total: its remaining checks are not run.
+    fn give_up(&self, technique: Technique) -> bool {
+        let all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        all.get(technique.name()).is_some_and(|timeouts| timeouts.in_a_row >= 2 || timeouts.total >= 4)
     }
 }
 
@@ -124,12 +135,16 @@ mod tests {
     }
 
     #[test]
-    fn a_submission_that_never_finishes_is_given_up() {
-        let check = |reason| CheckResult { reason, ..sample::report("").checks[0].clone() };
+    fn a_technique_that_never_finishes_is_given_up_and_others_are_not() {
+        let check = |reason| {
+            let id = "light-pick/scripted/nee/1".parse().expect("it is a name");
+            CheckResult { id, reason, ..sample::report("").checks[0].clone() }
+        };
         let after = |reasons: &[Reason]| {
             let timeouts = TimeoutTracker::default();
             reasons.iter().for_each(|&reason| timeouts.record(&check(reason)));
-            timeouts.give_up()
+            assert!(!timeouts.give_up(Technique::Mis));
+            timeouts.give_up(Technique::Nee)
         };
         use Reason::{Bias, Timeout};
         assert!(!after(&[Timeout, Bias, Timeout, Bias, Timeout]));
