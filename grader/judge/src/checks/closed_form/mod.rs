@@ -14,7 +14,8 @@ use verdict::rubric::{CheckSpec, EmissionOnHit};
 
 use super::means::{self, Picture};
 use super::{Check, CheckOutcome, GradeContext, JobError, Observation, SceneWithReference, mean_bias};
-use pixels::{Pixels, RAYS};
+pub(super) use pixels::Pixels;
+use pixels::RAYS;
 
 /// Rays per pixel for testing whether a scene has a closed form.
 const TEST_RAYS: u32 = 2;

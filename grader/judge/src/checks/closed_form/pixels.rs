@@ -7,9 +7,9 @@ use verdict::check::WhyNot;
 use crate::reference::SIZE;
 
 /// Mean and standard error of the quadrature of each pixel, by channel.
-pub(super) struct Pixels {
-    pub(super) mean: Vec<[f64; 3]>,
-    pub(super) error: Vec<[f64; 3]>,
+pub(in crate::checks) struct Pixels {
+    pub(in crate::checks) mean: Vec<[f64; 3]>,
+    pub(in crate::checks) error: Vec<[f64; 3]>,
 }
 
 /// Rays per pixel of the quadrature.
@@ -25,7 +25,7 @@ impl Pixels {
     /// The error is that of evenly distributed points in a square with an edge through it: it falls as N^(−3/4) times
     /// the standard deviation of the values, where random points would give N^(−1/2) (Mitchell, "Consequences of
     /// Stratified Sampling in Graphics", SIGGRAPH 1996).
-    pub(super) fn integrate(
+    pub(in crate::checks) fn integrate(
         scene: &Scene,
         rays: u32,
         mut radiance: impl FnMut(&Ray) -> Result<[f64; 3], WhyNot>,

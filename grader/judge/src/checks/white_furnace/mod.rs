@@ -7,15 +7,16 @@
 //!
 //! The expected means do not depend on the reference; only the expected variance does.
 
-use std::f64::consts::PI;
+mod albedo;
 
-use arty::math::{Frame, Vec3};
-use arty::scene::{Hit, Material, Scene, Specular};
+use arty::ray::Ray;
+use arty::scene::{Material, Scene, Specular};
 
 use verdict::check::{BounceEnergy, CheckKind, Evidence, FurnaceTest, WhyNot};
 use verdict::error::Error;
 use verdict::rubric::CheckSpec;
 
+use super::closed_form::Pixels;
 use super::context::{replay_of, switches_of};
 use super::means::{self, Anomalies, Picture};
 use super::{
@@ -24,6 +25,10 @@ use super::{
 use crate::reference::SIZE;
 use crate::statistics::expected::Expected;
 use crate::statistics::sequential::{Decision, Judgement};
+use albedo::Albedo;
+
+/// Rays per pixel for albedos that depend on the angle.
+const RAYS: u32 = 16;
 
 pub(super) struct WhiteFurnace;
 
@@ -48,11 +53,8 @@ impl Check for WhiteFurnace {
         let loaded = [process.load_with(&scene.description, switches_of(spec))?];
         let (mut anomalies, mut judgements) = (Anomalies::default(), Vec::new());
         for &order in &orders {
-            let expected = Expected {
-                mean: furnace.picture(&scene.scene, order),
-                error: vec![[0.0; 3]; noise.mean.len()],
-                ..noise.clone()
-            };
+            let Pixels { mean, error } = furnace.picture(&scene.scene, order);
+            let expected = Expected { mean, error, ..noise.clone() };
             let mut picture = Picture::of(context, spec, &scenes, &expected);
             picture.settings.max_bounces = order;
             picture.screening_level /= orders.len() as f64;
@@ -140,14 +142,19 @@ impl Furnace {
         }
     }
 
-    /// Exact radiance of each pixel with up to `order` bounces.
-    fn picture(&self, scene: &Scene, order: u32) -> Vec<[f64; 3]> {
-        let all = |radiance: [f64; 3]| vec![radiance; (SIZE.0 * SIZE.1) as usize];
+    /// Exact radiance of each pixel with up to `order` bounces, and its error.
+    fn picture(&self, scene: &Scene, order: u32) -> Pixels {
         match self.walls {
-            Walls::Uniform(_) => all(std::array::from_fn(|channel| self.series(channel, order))),
+            Walls::Uniform(_) => self.constant(std::array::from_fn(|channel| self.series(channel, order))),
             Walls::Glossy if order > 0 => self.glossy_picture(scene),
-            Walls::Glossy | Walls::Background => all(self.emission),
+            Walls::Glossy | Walls::Background => self.constant(self.emission),
         }
+    }
+
+    /// The same radiance in all pixels, without an error.
+    fn constant(&self, radiance: [f64; 3]) -> Pixels {
+        let count = (SIZE.0 * SIZE.1) as usize;
+        Pixels { mean: vec![radiance; count], error: vec![[0.0; 3]; count] }
     }
 
     /// L_e (1 + ρ + … + ρᵏ).
@@ -156,18 +163,22 @@ impl Furnace {
         (0..=order).map(|bounce| self.emission[channel] * albedo[channel].powi(bounce as i32)).sum()
     }
 
-    fn glossy_picture(&self, scene: &Scene) -> Vec<[f64; 3]> {
-        let camera = scene.camera(SIZE.0, SIZE.1);
-        let pixel = |x: u32, y: u32| {
-            let mut mean = [0.0; 3];
-            for place in [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)] {
-                let ray = camera.ray(x, y, place);
-                let albedo = scene.intersect(&ray).map_or([0.0; 3], |hit| albedo(&hit));
-                (0..3).for_each(|c| mean[c] += 0.25 * self.emission[c] * (1.0 + albedo[c]));
-            }
-            mean
+    /// The albedo varies over a pixel, and its quadrature has an error, too.
+    fn glossy_picture(&self, scene: &Scene) -> Pixels {
+        let mut quadrature: f64 = 0.0;
+        let radiance = |ray: &Ray| {
+            let hit = scene.intersect(ray).ok_or(WhyNot::NotEnclosed)?;
+            let albedo = Albedo::at(&hit);
+            quadrature = quadrature.max(albedo.error);
+            Ok(std::array::from_fn(|c| self.emission[c] * (1.0 + albedo.value[c])))
         };
-        (0..SIZE.1).flat_map(|y| (0..SIZE.0).map(move |x| (x, y))).map(|(x, y)| pixel(x, y)).collect()
+        // In a closed scene, every ray hits something.
+        let mut pixels =
+            Pixels::integrate(scene, RAYS, radiance).unwrap_or_else(|_| self.constant(self.emission));
+        for error in &mut pixels.error {
+            (0..3).for_each(|channel| error[channel] += self.emission[channel] * quadrature);
+        }
+        pixels
     }
 
     /// c_k for k = 0, 1, …, from the means of the whole image; empty if there is no series. Pictures of different
@@ -209,32 +220,6 @@ fn is_clear_glass(material: &Material) -> bool {
     glass && material.diffuse.is_black()
 }
 
-/// Albedo ∫ f cos θ dω, by quadrature in spherical coordinates around the mirror direction, where a lobe is narrow.
-fn albedo(hit: &Hit<'_>) -> [f64; 3] {
-    /// Number of steps in the polar angle and in the azimuth.
-    const STEPS: (u32, u32) = (64, 24);
-    let bsdf = hit.bsdf();
-    let mirrored = 2.0 * hit.normal.dot(hit.wo) * hit.normal - hit.wo;
-    let frame = Frame::around(mirrored);
-    let mut sum = [0.0; 3];
-    for i in 0..STEPS.0 {
-        // Uniform in the square root of 1 − cos α, which is nearly proportional to α.
-        let root = (f64::from(i) + 0.5) / f64::from(STEPS.0);
-        let cos = 1.0 - 2.0 * root * root;
-        let sin = (1.0 - cos * cos).max(0.0).sqrt();
-        let solid_angle = 4.0 * root / f64::from(STEPS.0) * 2.0 * PI / f64::from(STEPS.1);
-        for j in 0..STEPS.1 {
-            let azimuth = 2.0 * PI * (f64::from(j) + 0.5) / f64::from(STEPS.1);
-            let local = Vec3::new((sin * azimuth.cos()) as f32, (sin * azimuth.sin()) as f32, cos as f32);
-            let wi = frame.to_world(local);
-            let f = bsdf.eval(wi).to_array();
-            let weight = f64::from(hit.cos(wi)) * solid_angle;
-            (0..3).for_each(|channel| sum[channel] += f64::from(f[channel]) * weight);
-        }
-    }
-    sum
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -265,10 +250,11 @@ mod tests {
                 emission_on_hit: verdict::rubric::EmissionOnHit::On,
             };
             let rendered = &scene.reference.views[&view];
-            for (pixel, exact) in furnace.picture(&scene.scene, order).iter().enumerate() {
+            let pixels = furnace.picture(&scene.scene, order);
+            for (pixel, (exact, error)) in pixels.mean.iter().zip(&pixels.error).enumerate() {
                 for channel in 0..3 {
                     let (exact, seen) = (exact[channel], rendered.mean[pixel][channel]);
-                    let noise = rendered.variance_of_mean[pixel][channel].sqrt();
+                    let noise = rendered.variance_of_mean[pixel][channel].sqrt().hypot(error[channel]);
                     let allowed = 6.0 * noise + tolerance * exact;
                     assert!(
                         (exact - seen).abs() <= allowed,

@@ -1,0 +1,128 @@
+//! The albedo of a surface, by quadrature.
+
+use std::f64::consts::PI;
+
+use arty::math::{Frame, Vec3};
+use arty::scene::Hit;
+
+/// Number of polar angles and of azimuths.
+const ANGLES: (usize, usize) = (32, 48);
+
+/// An albedo by channel.
+pub(super) struct Albedo {
+    pub(super) value: [f64; 3],
+    /// Error of the quadrature: the largest difference from the same with half as many angles, which is an upper
+    /// bound where the quadrature converges.
+    pub(super) error: f64,
+}
+
+impl Albedo {
+    /// ∫ f cos θ dω at a hit point.
+    pub(super) fn at(hit: &Hit<'_>) -> Self {
+        let value = integrate(hit, ANGLES);
+        let coarse = integrate(hit, (ANGLES.0 / 2, ANGLES.1 / 2));
+        let error = (0..3).map(|channel| (value[channel] - coarse[channel]).abs()).fold(0.0, f64::max);
+        Self { value, error }
+    }
+}
+
+/// Spherical coordinates around the normal, so that the horizon, where a lobe is cut off, is the end of an interval. Gauss
+/// and Legendre's rule for the polar angle, equal steps of the azimuth: both converge exponentially for smooth lobes.
+fn integrate(hit: &Hit<'_>, (polar, azimuths): (usize, usize)) -> [f64; 3] {
+    let bsdf = hit.bsdf();
+    let frame = Frame::around(hit.normal);
+    let mut sum = [0.0; 3];
+    for (node, weight) in gauss_legendre(polar) {
+        let (sin, cos) = (0.25 * PI * (1.0 + node)).sin_cos();
+        let solid_angle = 0.25 * PI * weight * sin * 2.0 * PI / azimuths as f64;
+        for step in 0..azimuths {
+            let azimuth = 2.0 * PI * (step as f64 + 0.5) / azimuths as f64;
+            let local = Vec3::new((sin * azimuth.cos()) as f32, (sin * azimuth.sin()) as f32, cos as f32);
+            let f = bsdf.eval(frame.to_world(local)).to_array();
+            (0..3).for_each(|channel| sum[channel] += f64::from(f[channel]) * cos * solid_angle);
+        }
+    }
+    sum
+}
+
+/// Nodes in [−1, 1] and weights: the roots of the Legendre polynomial of this degree, by Newton's method.
+fn gauss_legendre(degree: usize) -> impl Iterator<Item = (f64, f64)> {
+    let n = degree as f64;
+    (0..degree).map(move |i| {
+        let mut x = (PI * (i as f64 + 0.75) / (n + 0.5)).cos();
+        let mut slope = 1.0;
+        for _ in 0..50 {
+            let (mut before, mut value) = (1.0, x);
+            for k in 2..=degree {
+                let k = k as f64;
+                (before, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
+            }
+            slope = n * (x * value - before) / (x * x - 1.0);
+            x -= value / slope;
+        }
+        (x, 2.0 / ((1.0 - x * x) * slope * slope))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use arty::math::Rgb;
+    use arty::ray::Ray;
+    use arty::scene::{Material, Scene, Specular};
+
+    use super::*;
+    use crate::scenes;
+
+    #[test]
+    fn polynomials_are_integrated_exactly() {
+        for (power, exact) in [(0, 2.0), (1, 0.0), (2, 2.0 / 3.0), (30, 2.0 / 31.0)] {
+            let sum: f64 = gauss_legendre(16).map(|(x, weight)| weight * x.powi(power)).sum();
+            assert!((sum - exact).abs() < 1e-12, "x^{power}: {sum}");
+        }
+    }
+
+    /// The Phong lobe in double precision, around the mirror direction, with midpoints: another formula, another rule.
+    fn exact(cos_viewer: f64, exponent: f64) -> f64 {
+        const STEPS: (u32, u32) = (2000, 500);
+        let sin_viewer = (1.0 - cos_viewer * cos_viewer).sqrt();
+        let mut sum = 0.0;
+        for i in 0..STEPS.0 {
+            let angle = 0.5 * PI * (f64::from(i) + 0.5) / f64::from(STEPS.0);
+            let (sin, cos) = angle.sin_cos();
+            for j in 0..STEPS.1 {
+                let azimuth = 2.0 * PI * (f64::from(j) + 0.5) / f64::from(STEPS.1);
+                let height = cos * cos_viewer + sin * azimuth.cos() * sin_viewer;
+                sum += cos.powf(exponent) * height.max(0.0) * sin;
+            }
+        }
+        let cell = 0.5 * PI / f64::from(STEPS.0) * 2.0 * PI / f64::from(STEPS.1);
+        (exponent + 2.0) / (2.0 * PI) * sum * cell
+    }
+
+    #[test]
+    fn the_stated_error_covers_the_difference_from_an_independent_integration() {
+        for exponent in [4.0, 20.0, 60.0] {
+            let reflectance = Rgb::gray(0.5);
+            let material = Material {
+                specular: Specular::Phong { reflectance, exponent: exponent as f32 },
+                ..scenes::grey(0.0, 0.0)
+            };
+            let mut description = scenes::empty();
+            scenes::add(&mut description, &scenes::floor(0.0, 8.0), material);
+            let scene = Scene::new(&description);
+            for cos in [1.0f64, 0.8, 0.4, 0.1] {
+                let back = Vec3::new((1.0 - cos * cos).sqrt() as f32, cos as f32, 0.0);
+                let hit = scene.intersect(&Ray::new(2.0 * back, -back)).expect("it hits the floor");
+                let albedo = Albedo::at(&hit);
+                let difference = (albedo.value[0] - 0.5 * exact(cos, exponent)).abs();
+                assert!(albedo.error < 1e-3, "{exponent}, {cos}: {}", albedo.error);
+                // 1e-5 for single precision and for the midpoints.
+                assert!(
+                    difference <= albedo.error + 1e-5,
+                    "{exponent}, {cos}: {difference} > {}",
+                    albedo.error
+                );
+            }
+        }
+    }
+}
