@@ -114,22 +114,42 @@ fn deviation(fact: &Fact) -> f64 {
     if fact.fails() { off + 1e6 } else { off }
 }
 
-/// Facts about light that is dim or bright, near or far.
-pub(super) fn scales(prober: &mut Prober<'_>, technique: Technique) -> Result<Vec<Fact>, JobError> {
-    let about = About { term: Term::Conduct, technique, place: Place::Hit(1) };
-    let mut chains = Vec::new();
-    for factor in [1e-6, 1e-3, 1e3, 1e6] {
+/// The result grows with the radiance of the light, whatever else is wrong with it: relative to the result for an
+/// ordinary light.
+pub(super) fn brightness(prober: &mut Prober<'_>, technique: Technique) -> Result<Vec<Fact>, JobError> {
+    let factors = [1.0, 1e-6, 1e-3, 1e3, 1e6];
+    let case = |factor: f32| {
         let mut chain = seen_by_light_samples(1, PathEnd::AreaLight);
         chain.emitted *= factor;
-        chains.push(chain);
+        Case::new(chain, technique).light_samples_only()
+    };
+    let seen = prober.measure_all(&factors.map(case))?;
+    let about = About { term: Term::Conduct, technique, place: Place::Hit(1) };
+    let ordinary = seen[0];
+    if ordinary.value.is_nan() || ordinary.value <= 0.0 {
+        return Ok(vec![about.not_measured(Factor::Scale, 1.0, verdict::audit::Why::NothingArrives)]);
     }
-    for scale in [1e-2, 1e2] {
+    let each = factors.iter().zip(&seen).skip(1).map(|(&factor, seen)| {
+        let exact = ordinary.value * f64::from(factor);
+        about.ratio(
+            Factor::Scale,
+            seen.value / exact,
+            NOISE * (seen.error / exact).hypot(ordinary.error / ordinary.value),
+        )
+    });
+    Ok(each.max_by(|a, b| deviation(a).total_cmp(&deviation(b))).into_iter().collect())
+}
+
+/// Facts about a light that is near or far, or reflects another one, and about the same call twice.
+pub(super) fn conduct(prober: &mut Prober<'_>, technique: Technique) -> Result<Vec<Fact>, JobError> {
+    let about = About { term: Term::Conduct, technique, place: Place::Paths };
+    let chains = [1e-2f32, 1e2].map(|scale| {
         let mut chain = seen_by_light_samples(1, PathEnd::AreaLight);
         chain.scale = scale;
         chain.pdf_area /= scale * scale;
         chain.pdf_area_on_hit /= scale * scale;
-        chains.push(chain);
-    }
+        chain
+    });
     let case = |chain: &Chain| Case::new(chain.clone(), technique).light_samples_only();
     let seen = prober.measure_all(&chains.iter().map(case).collect::<Vec<_>>())?;
     let each = chains.iter().zip(seen).map(|(chain, seen)| {

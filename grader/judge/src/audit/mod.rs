@@ -19,7 +19,7 @@ use arty::integrator::Technique;
 use harness::build::SubmissionProgram;
 use harness::host_process::HostProcess;
 use harness::job::JobError;
-use verdict::audit::{Audit, Fact};
+use verdict::audit::{Audit, Fact, Factor};
 use verdict::check::Fault;
 use verdict::error::Result;
 
@@ -56,6 +56,8 @@ pub fn audit(program: &SubmissionProgram, seed: u64) -> Result<Audit> {
             }
         }
     }
+    // Light from nowhere is part of every other result.
+    audit.facts.sort_by_key(|fact| fact.factor != Factor::WithoutLight);
     audit.seconds = start.elapsed().as_secs_f64();
     Ok(audit)
 }
@@ -64,17 +66,23 @@ pub fn audit(program: &SubmissionProgram, seed: u64) -> Result<Audit> {
 fn groups() -> Vec<Group> {
     let (bsdf, nee, mis) = (Technique::Bsdf, Technique::Nee, Technique::Mis);
     let mut groups: Vec<Group> = Vec::new();
+    for technique in [nee, mis] {
+        groups.push(Box::new(move |it| decisions::brightness(it, technique)));
+    }
     for hit in 1..=HITS {
         groups.push(Box::new(move |it| contributions::hit(it, bsdf, hit)));
     }
     for technique in [nee, mis] {
         for hit in 1..=HITS {
+            // What `nee` does right is not the fault of the light sample in `mis`: its weights come first.
+            if technique == mis {
+                groups.push(Box::new(move |it| weights::facts(it, hit)));
+            }
             groups.push(Box::new(move |it| contributions::light_sample(it, technique, hit)));
             groups.push(Box::new(move |it| contributions::point_light(it, technique, hit)));
             if technique == nee {
                 groups.push(Box::new(move |it| contributions::hit_with_nee(it, hit)));
             } else {
-                groups.push(Box::new(move |it| weights::facts(it, hit)));
                 groups.push(Box::new(move |it| contributions::hit(it, technique, hit)));
             }
         }
@@ -85,7 +93,7 @@ fn groups() -> Vec<Group> {
         groups.push(Box::new(move |it| decisions::roulette(it, technique)));
     }
     for technique in [nee, mis] {
-        groups.push(Box::new(move |it| decisions::scales(it, technique)));
+        groups.push(Box::new(move |it| decisions::conduct(it, technique)));
     }
     groups
 }

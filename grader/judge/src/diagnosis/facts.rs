@@ -17,17 +17,42 @@ pub struct LearntFacts {
 }
 
 /// The failed facts of one variant.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FactRow {
     /// Name of the variant.
     pub variant: String,
-    /// Names of the failed facts, in the order in which they are read.
-    pub failed: Vec<String>,
+    /// The failed facts, in the order in which they are read.
+    pub failed: Vec<FailedFact>,
     /// True if the variant ended before all facts were measured.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub ended_early: bool,
 }
+
+/// Name of a failed fact, and its measured value; `None` if there is none, or it is NaN or infinite.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FailedFact(pub String, pub Option<f64>);
+
+impl FailedFact {
+    /// All failed facts of an audit.
+    pub fn all(audit: &Audit) -> Vec<Self> {
+        let rounded = |value: f64| (value * 1e4).round() / 1e4;
+        audit.failed().map(|fact| Self(fact.id(), fact.measured.map(rounded))).collect()
+    }
+
+    /// True if both are the same fact with the same value, but for rounding and noise.
+    fn resembles(&self, other: &Self) -> bool {
+        let is_same = match (self.1, other.1) {
+            (Some(a), Some(b)) => (a - b).abs() <= SAME_VALUE * (1.0 + a.abs().max(b.abs())),
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        self.0 == other.0 && is_same
+    }
+}
+
+/// Difference of two measured values, relative to 1 + the larger one, up to which they count as equal. Exponents of
+/// different mistakes differ by 1/2 or more; what is measured with random numbers varies by less than this.
+const SAME_VALUE: f64 = 0.05;
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -75,13 +100,15 @@ impl LearntFacts {
         Self { rows: self.rows.iter().filter(|row| !variants.contains(&row.variant)).cloned().collect() }
     }
 
-    /// The only cause whose variants have exactly these failed facts; `None` if there is none, or several.
-    pub fn exact<'a>(&self, catalogue: &'a Catalogue, failed: &[String]) -> Option<&'a Cause> {
-        let failed: BTreeSet<&String> = failed.iter().collect();
+    /// The only cause whose variants have exactly these failed facts, with these values; `None` if there is none, or
+    /// several.
+    pub fn exact<'a>(&self, catalogue: &'a Catalogue, failed: &[FailedFact]) -> Option<&'a Cause> {
         if failed.is_empty() {
             return None;
         }
-        let same = self.rows.iter().filter(|row| row.failed.iter().collect::<BTreeSet<_>>() == failed);
+        let same = self.rows.iter().filter(|row| {
+            row.failed.len() == failed.len() && row.failed.iter().zip(failed).all(|(a, b)| a.resembles(b))
+        });
         let causes: BTreeSet<&str> =
             same.filter_map(|row| catalogue.cause_of(&row.variant)).map(|cause| cause.id.as_str()).collect();
         let [id] = Vec::from_iter(causes)[..] else { return None };

@@ -19,7 +19,7 @@ mod seen;
 mod signatures;
 
 pub use confusion::{Case, Confusion};
-pub use facts::{FactRow, LearntFacts};
+pub use facts::{FactRow, FailedFact, LearntFacts};
 pub use observation::{CheckObservations, CheckState, Number, ObservationVector};
 pub use signatures::Signatures;
 
@@ -173,8 +173,8 @@ impl Catalogue {
         };
         let mut all: Vec<ExplainedCause> =
             statements.into_iter().map(|fact| found(report::Cause::FailedFact(fact.clone()))).collect();
-        let failed: Vec<String> = audit.failed().map(verdict::audit::Fact::id).collect();
-        if let Some(Cause { id, title, hint, .. }) = self.facts.exact(self, &failed).cloned() {
+        let exact = self.facts.exact(self, &FailedFact::all(audit));
+        if let Some(Cause { id, title, hint, .. }) = exact.cloned() {
             all.insert(1.min(all.len()), found(report::Cause::Known { id, title, hint }));
         }
         all

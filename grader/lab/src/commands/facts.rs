@@ -46,7 +46,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         let Some(row) = learnt.row(&variant.id) else { continue };
         wrong += usize::from(variant.kind == Kind::Right && !row.failed.is_empty());
         if !all || (variant.kind == Kind::Right && !row.failed.is_empty()) {
-            print(&format!("{}: {}\n", variant.id, row.failed.join(" ")))?;
+            let names: Vec<&str> = row.failed.iter().map(|failed| failed.0.as_str()).collect();
+            print(&format!("{}: {}\n", variant.id, names.join(" ")))?;
         }
     }
     if all {

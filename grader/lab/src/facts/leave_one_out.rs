@@ -45,7 +45,7 @@ pub fn leave_one_out(catalogue: &Catalogue, learnt: &LearntFacts, variants: &[Va
             blamed += usize::from(variant.kind == Kind::Right && !row.failed.is_empty());
             continue;
         };
-        let first = row.failed.first().map(String::as_str);
+        let first = row.failed.first().map(|failed| failed.0.as_str());
         let others = learnt.without(&cause.variants);
         let named = others.exact(catalogue, &row.failed).map(|cause| cause.id.as_str());
         rows.push((variant.id.as_str(), judge(&cause.facts, first), first, named));
@@ -61,7 +61,7 @@ pub fn leave_one_out(catalogue: &Catalogue, learnt: &LearntFacts, variants: &[Va
             writeln!(text, "- {}: {} of {} ({percent:.1} %)", judgement.name(), count(judgement), rows.len());
     }
     let also = rows.iter().filter(|row| row.3.is_some()).count();
-    let _ = writeln!(text, "- another known mistake has exactly the same failed facts: {also}");
+    let _ = writeln!(text, "- another known mistake has the same failed facts with the same values: {also}");
     let _ = writeln!(text, "- correct variants with a failed fact: {blamed}\n");
     text += "*Right*: the first failed fact is about the factor that is wrong (`facts` in causes.yml). *Plausible*: about another \
              factor of the same term. *Misleading*: about another term.\n\n";

@@ -11,7 +11,7 @@ use verdict::error::{Error, Result};
 
 use crate::mutants::Variant;
 
-pub use judge::diagnosis::{FactRow, LearntFacts};
+pub use judge::diagnosis::{FactRow, FailedFact, LearntFacts};
 pub use leave_one_out::leave_one_out;
 
 /// Audits variants.
@@ -27,7 +27,7 @@ pub fn measure(workspace: &Workspace, variants: &[Variant], seed: u64) -> Result
         let audit = audit(&program, seed)?;
         Ok(FactRow {
             variant: variant.id.clone(),
-            failed: audit.failed().map(verdict::audit::Fact::id).collect(),
+            failed: FailedFact::all(&audit),
             ended_early: audit.fault.is_some(),
         })
     };
