@@ -213,7 +213,7 @@ fn a_grade_says_what_was_odd_and_what_being_late_costs() {
     assert_eq!(graded.status.code(), Some(0), "{}", stderr(&graded));
     assert!(stderr(&graded).contains("note: line ends of another system"), "{}", stderr(&graded));
     let said = String::from_utf8_lossy(&graded.stdout).into_owned();
-    assert!(said.contains("× 0.8; 8 of 10 points count"), "{said}");
+    assert!(said.contains("× 0.8; 16 of 20 points count"), "{said}");
 }
 
 /// Runs the grader in bash, where `"$0"` is the program and `"$1"` the student file.
