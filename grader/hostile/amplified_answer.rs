@@ -46,7 +46,6 @@ impl PathTracer {
             first_anomalies: Vec::new(),
             rays: 0,
             cpu_seconds: 0.0,
-            rays: 0,
         });
         for number in 3..10 {
             let Some(descriptor) = descriptor(number) else { continue };

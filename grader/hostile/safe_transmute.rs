@@ -49,7 +49,6 @@ impl PathTracer {
                 first_anomalies: Vec::new(),
                 rays: 0,
                 cpu_seconds: 0.0,
-                rays: 0,
             };
             let _ = write_message(&mut file, &Response::Rendered(forged));
             let _ = file.flush();

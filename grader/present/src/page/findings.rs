@@ -13,7 +13,7 @@ pub(super) fn tasks(report: &Report) -> Markup {
     html! {
         h2 { "Points" }
         div.scroll { table.cards {
-            thead { tr { th { "task" } th { "" } th.number { "points" } th { "what is wrong, and what to do next" } } }
+            thead { tr { th { "task" } th { "title" } th.number { "points" } th { "what is wrong, and what to do next" } } }
             tbody {
                 @for task in &report.tasks {
                     tr {
