@@ -120,7 +120,12 @@ pub fn report(text: &str) -> Report {
             Layers::default(),
             vec![SourceFinding { line: 1, what: text(), why: text() }],
         ),
-        provenance: Provenance { toolchain: text(), assignment: text(), ..Provenance::default() },
+        provenance: Provenance {
+            seed: Some(0),
+            toolchain: text(),
+            assignment: text(),
+            ..Provenance::default()
+        },
         audit: None,
         convergence: None,
         images: Vec::new(),

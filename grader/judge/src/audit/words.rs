@@ -49,12 +49,11 @@ pub(super) fn facts(prober: &mut Prober<'_>, technique: Technique) -> Result<Vec
     let both: Vec<Case> = words.iter().map(|it| case(it, true)).collect();
     let both = prober.measure(&both, EFFORT)?;
     // Only weights need the two contributions apart.
-    let dark = match technique {
-        Technique::Mis => {
-            let dark: Vec<Case> = words.iter().map(|it| case(it, false)).collect();
-            prober.measure(&dark, EFFORT)?
-        }
-        _ => vec![None; words.len()],
+    let dark = if technique == Technique::Mis {
+        let dark: Vec<Case> = words.iter().map(|it| case(it, false)).collect();
+        prober.measure(&dark, EFFORT)?
+    } else {
+        vec![None; words.len()]
     };
     let mut facts = Vec::new();
     for (term, end) in [(Term::Path, PathEnd::AreaLight), (Term::PointLight, PathEnd::PointLight)] {
