@@ -17,8 +17,8 @@ const MAX_BOUNCES: u32 = 6;
 const KINDS: [SurfaceKind; 5] =
     [SurfaceKind::Diffuse, SurfaceKind::Glossy, SurfaceKind::Mirror, SurfaceKind::Glass, SurfaceKind::Coated];
 
-/// Few paths each, and sets of paths for as many words as time allows.
-const EFFORT: Effort = Effort { first: 4, set: 256, most: 120 };
+/// Enough paths that roulette cannot end all of them, and sets of paths for as many words as time allows.
+const EFFORT: Effort = Effort { first: 16, set: 256, most: 120 };
 
 /// The classes of paths, in the order in which failed ones should be read.
 const CLASSES: [Factor; 8] = [
