@@ -6,7 +6,7 @@ use arty::math::{Frame, Vec3};
 use arty::scene::Hit;
 
 /// Number of polar angles and of azimuths.
-const ANGLES: (usize, usize) = (32, 48);
+const ANGLES: (usize, usize) = (48, 72);
 
 /// An albedo by channel.
 pub(super) struct Albedo {
