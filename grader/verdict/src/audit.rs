@@ -295,6 +295,17 @@ impl Audit {
     pub fn failed(&self) -> impl Iterator<Item = &Fact> {
         self.facts.iter().filter(|fact| fact.fails())
     }
+
+    /// The failed facts that are worth a statement: the first of each term. Others often follow from these.
+    pub fn statements(&self) -> Vec<&Fact> {
+        let mut stated: Vec<&Fact> = Vec::new();
+        for fact in self.failed() {
+            if stated.iter().all(|other| other.term != fact.term) {
+                stated.push(fact);
+            }
+        }
+        stated
+    }
 }
 
 impl fmt::Display for Term {

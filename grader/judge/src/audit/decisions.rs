@@ -143,7 +143,7 @@ pub(super) fn brightness(prober: &mut Prober<'_>, technique: Technique) -> Resul
 /// Facts about a light that is near or far, or reflects another one, and about the same call twice.
 pub(super) fn conduct(prober: &mut Prober<'_>, technique: Technique) -> Result<Vec<Fact>, JobError> {
     let about = About { term: Term::Conduct, technique, place: Place::Paths };
-    let chains = [1e-2f32, 1e2].map(|scale| {
+    let chains = [1.0, 1e-2f32, 1e2].map(|scale| {
         let mut chain = seen_by_light_samples(1, PathEnd::AreaLight);
         chain.scale = scale;
         chain.pdf_area /= scale * scale;
@@ -152,12 +152,16 @@ pub(super) fn conduct(prober: &mut Prober<'_>, technique: Technique) -> Result<V
     });
     let case = |chain: &Chain| Case::new(chain.clone(), technique).light_samples_only();
     let seen = prober.measure_all(&chains.iter().map(case).collect::<Vec<_>>())?;
-    let each = chains.iter().zip(seen).map(|(chain, seen)| {
-        let exact = chain.light_sample();
-        about.ratio(Factor::Scale, seen.value / exact, NOISE * seen.error / exact)
+    // Relative to a light at an ordinary distance: a constant factor is not this fact's matter.
+    let relative = |chain: &Chain, seen: &Measured| seen.value / chain.light_sample();
+    let ordinary = relative(&chains[0], &seen[0]);
+    let each = chains.iter().zip(&seen).skip(1).map(|(chain, seen)| {
+        let noise = NOISE * seen.error / chain.light_sample() / ordinary;
+        about.ratio(Factor::Scale, relative(chain, seen) / ordinary, noise)
     });
     let worst = each.max_by(|a, b| deviation(a).total_cmp(&deviation(b)));
-    let mut facts: Vec<Fact> = worst.into_iter().collect();
+    let unknown = about.not_measured(Factor::Scale, 1.0, verdict::audit::Why::NothingArrives);
+    let mut facts: Vec<Fact> = if ordinary > 0.0 { worst.into_iter().collect() } else { vec![unknown] };
     facts.push(reflecting_light(prober, technique)?);
     facts.push(repeatable(prober, technique)?);
     Ok(facts)

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use verdict::audit::{Audit, Fact};
+use verdict::audit::Audit;
 use verdict::error::{Error, Result};
 
 use super::{Catalogue, Cause};
@@ -114,15 +114,4 @@ impl LearntFacts {
         let [id] = Vec::from_iter(causes)[..] else { return None };
         catalogue.causes().iter().find(|cause| cause.id == id)
     }
-}
-
-/// The failed facts that are worth a statement: the first of each term, without those that follow from an earlier one.
-pub(super) fn statements(audit: &Audit) -> Vec<&Fact> {
-    let mut stated: Vec<&Fact> = Vec::new();
-    for fact in audit.failed() {
-        if stated.iter().all(|other| other.term != fact.term) {
-            stated.push(fact);
-        }
-    }
-    stated
 }

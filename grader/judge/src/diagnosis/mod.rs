@@ -164,7 +164,7 @@ impl Catalogue {
     fn of_facts(&self, report: &Report, direct: &[ExplainedCause]) -> Vec<ExplainedCause> {
         let Some(audit) = &report.audit else { return Vec::new() };
         let is_explained = |technique: Technique| direct.iter().any(|direct| direct.explains(technique));
-        let mut statements = facts::statements(audit);
+        let mut statements = audit.statements();
         statements.retain(|fact| !is_explained(fact.technique));
         let explains = vec![Technique::Nee, Technique::Mis];
         let found = |cause: report::Cause| ExplainedCause {

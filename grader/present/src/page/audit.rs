@@ -7,19 +7,26 @@ use verdict::report::Report;
 use super::prose::prose;
 use crate::words::{self, fact};
 
-/// One row per factor, and one sentence per failed fact; nothing if they were not measured.
+/// One sentence per failed fact, the first of each term in view, and one row per factor; nothing if they were not measured.
 pub(super) fn section(report: &Report) -> Markup {
     html! {
         @if let Some(audit) = &report.audit {
             section {
                 h2 { "Factors of the estimator" }
+                @let failed = audit.failed().count();
                 p {
-                    (words::count(audit.failed().count(), "fact")) " of " (audit.facts.len()) " not as it should be. \
-                    Each value is the exponent of one factor in the result, or the result relative to the exact one, \
+                    @if failed == 0 { "All " (audit.facts.len()) " facts are as they should be. " }
+                    @else { (failed) " of " (words::count(audit.facts.len(), "fact")) " are not as they should be. " }
+                    "Each value is the exponent of one factor in the result, or the result relative to the exact one, \
                     measured without noise in scripted scenes."
                 }
-                @if audit.failed().next().is_some() {
-                    ul { @for failed in audit.failed() { li { (prose(&fact::fact(failed))) } } }
+                @if failed > 0 {
+                    p { "The first one of each part of the estimator; the others often follow from these:" }
+                    (sentences(&audit.statements()))
+                    details {
+                        summary { "All that is not as it should be" }
+                        (sentences(&audit.failed().collect::<Vec<_>>()))
+                    }
                 }
                 details {
                     summary { "All factors" }
@@ -28,6 +35,10 @@ pub(super) fn section(report: &Report) -> Markup {
             }
         }
     }
+}
+
+fn sentences(facts: &[&Fact]) -> Markup {
+    html! { ul { @for fact in facts { li { (prose(&fact::fact(fact))) } } } }
 }
 
 fn table(audit: &Audit) -> Markup {
