@@ -53,6 +53,7 @@ impl ClassPage<'_> {
     fn write(&self, digests: &Digests, file: &mut BufWriter<&std::fs::File>) -> std::io::Result<()> {
         let title = format!("{}, {} in the class", self.rubric.assignment, self.rows.len());
         file.write_all(document::begin(&title, SCRIPT).as_bytes())?;
+        file.write_all(b"<main>")?;
         for section in [
             sections::header(self),
             sections::changes(self),
@@ -67,6 +68,7 @@ impl ClassPage<'_> {
         for section in after {
             file.write_all(section.into_string().as_bytes())?;
         }
+        file.write_all(b"</main>")?;
         file.write_all(document::end(SCRIPT).as_bytes())
     }
 

@@ -60,7 +60,7 @@ pub(super) fn points(page: &ClassPage<'_>) -> Markup {
         div.beside {
             @if let Some(plot) = plot { div.scroll { (PreEscaped(plot)) } }
             div { div.scroll { table {
-                thead { tr { th { "task" } th { "" } th.number { "mean" } th { "share" } th.number { "all" } th.number { "none" } } }
+                thead { tr { th { "task" } th { "title" } th.number { "mean" } th { "share" } th.number { "all" } th.number { "none" } } }
                 tbody { @for task in &page.rubric.tasks {
                     @let given: Vec<f64> = page.rows.iter().filter_map(|row| row.tasks.get(&task.id).copied().flatten()).collect();
                     @let mean = given.iter().sum::<f64>() / given.len().max(1) as f64;
@@ -97,7 +97,7 @@ pub(super) fn hard(page: &ClassPage<'_>, digests: &Digests) -> Markup {
                         th scope="col" aria-sort="none" { button type="button" { "task" } }
                         th scope="col" aria-sort="none" { button type="button" { "check" } }
                         th.number scope="col" aria-sort="none" { button type="button" { "passed" } }
-                        th { "" }
+                        th { "share" }
                     } }
                     tbody { @for (check, rate) in checks {
                         @let (task, id) = check.split_once(' ').unwrap_or(("", check));
