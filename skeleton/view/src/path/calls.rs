@@ -1,5 +1,7 @@
 //! The calls that an integrator made for one sample.
 
+use std::borrow::Cow;
+
 use arty::math::{Rgb, Vec3};
 
 /// The calls for one sample, and the radiance that it returned.
@@ -19,9 +21,9 @@ pub struct Call {
     /// The function, such as `Scene::intersect`.
     pub function: &'static str,
     /// Arguments.
-    pub given: Vec<(&'static str, Vec<f32>)>,
+    pub given: Vec<(Cow<'static, str>, Vec<f32>)>,
     /// Results; empty for `None`.
-    pub got: Vec<(&'static str, Vec<f32>)>,
+    pub got: Vec<(Cow<'static, str>, Vec<f32>)>,
 }
 
 impl Call {
@@ -46,6 +48,6 @@ impl Call {
     }
 }
 
-fn find<'a>(values: &'a [(&'static str, Vec<f32>)], name: &str) -> Option<&'a [f32]> {
+fn find<'a>(values: &'a [(Cow<'static, str>, Vec<f32>)], name: &str) -> Option<&'a [f32]> {
     values.iter().find(|(other, _)| *other == name).map(|(_, numbers)| numbers.as_slice())
 }
