@@ -5,7 +5,9 @@ const AREAS: [bool; 2] = [true, true];
 type Values<'a> = &'a [(&'static str, &'a [f32])];
 
 fn call(function: &'static str, given: Values<'_>, got: Values<'_>) -> Call {
-    let owned = |values: Values<'_>| values.iter().map(|(name, numbers)| (*name, numbers.to_vec())).collect();
+    let owned = |values: Values<'_>| {
+        values.iter().map(|(name, numbers)| ((*name).into(), numbers.to_vec())).collect()
+    };
     Call { function, given: owned(given), got: owned(got) }
 }
 
