@@ -1,8 +1,8 @@
 //! The audit: facts about every factor of an estimator, measured in scripted scenes.
 //!
-//! In a scripted scene ([`chain`]) every answer is known. One answer is changed at a time, and the change of the result
-//! shows its exponent ([`contributions`], [`weights`]); which paths contribute at all is known exactly, too ([`words`]).
-//! What is random ([`decisions`]) is measured with stratified numbers. Facts about means hold for every correct program;
+//! In a scripted scene (`chain`) every answer is known. One answer is changed at a time, and the change of the result
+//! shows its exponent (`contributions`, `weights`); which paths contribute at all is known exactly, too (`words`).
+//! What is random (`decisions`) is measured with stratified numbers. Facts about means hold for every correct program;
 //! facts about the form of weights become remarks where a correct program may differ.
 
 mod chain;
