@@ -1,7 +1,7 @@
 //! How often the intervals of a convergence measurement hold the truth, and which differences they show.
 //!
 //! The solution is measured beside itself: then the truth is known, or known far better from all comparisons together than
-//! from one. [`planted`] programs show what a measurement makes of known differences. Comparisons are kept on disk, so
+//! from one. `planted` programs show what a measurement makes of known differences. Comparisons are kept on disk, so
 //! that the next run resumes.
 
 mod load;
