@@ -128,7 +128,7 @@ fn end(child: &mut Child, answered: bool) -> std::io::Result<Option<ExitStatus>>
     child.wait().map(|_| None)
 }
 
-/// Why a process gave no answer.
+/// The refusal that follows from the exit status of a process without an answer; `None` if it was stopped.
 fn why(status: Option<ExitStatus>) -> Refusal {
     let Some(status) = status else {
         return Refusal::Bomb(format!("reading it takes more than {} s", MAX_TIME.as_secs()));

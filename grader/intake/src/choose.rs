@@ -38,7 +38,7 @@ pub(super) struct Candidates {
 
 /// The source that is graded.
 pub(super) struct Chosen {
-    /// Its text.
+    /// Text of the source, as UTF-8 without a byte order mark.
     pub(super) text: String,
     /// MD5 of the bytes of all equal copies.
     pub(super) checksums: Vec<String>,

@@ -18,7 +18,7 @@ pub enum Refusal {
     NotThere(String, Vec<String>),
     /// `too-large`: a source or an archive exceeds its [limit](crate::limits).
     TooLarge {
-        /// Its name.
+        /// Name of the source or archive.
         name: String,
         /// Maximum size in bytes.
         max: u64,

@@ -26,7 +26,7 @@ pub struct NextStep<'a> {
     pub number: usize,
     /// Number of steps of the task.
     pub of: usize,
-    /// Its name.
+    /// Title of the step, as in the rubric.
     pub title: &'a str,
 }
 

@@ -39,8 +39,6 @@ pub fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
     write(path, |writer| serde_json::to_writer_pretty(writer, value))
 }
 
-///
-/// # Errors
 /// Removes a file if it exists.
 ///
 /// # Errors

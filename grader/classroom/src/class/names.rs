@@ -63,7 +63,7 @@ fn sorted_words(text: &str) -> Vec<String> {
     words
 }
 
-/// How well two names agree.
+/// Agreement of two names, from none to full.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Agreement {
     /// No word in common.

@@ -157,7 +157,7 @@ impl ResultDir {
         Self(out.join("submissions").join(key))
     }
 
-    /// Its path.
+    /// Path of the record on disk.
     pub(super) fn path(&self) -> &Path {
         &self.0
     }

@@ -21,7 +21,7 @@ use verdict::sandbox::Level;
 /// Version of the format of `shard.json`.
 const SCHEMA: &str = "arty-shard/1";
 
-/// One of several parts of a class.
+/// A part of a class, written `index/count`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Shard {
     /// Number of this part, counted from 1.
@@ -97,7 +97,7 @@ impl Class {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ShardFile {
     schema: String,
-    /// Which shard this is.
+    /// Number of this shard, and how many there are.
     pub shard: Shard,
     /// Versions and seeds of all grades.
     pub provenance: Provenance,

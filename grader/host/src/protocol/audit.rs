@@ -40,7 +40,7 @@ pub struct AuditBsdf {
     pub at_target: (Rgb, f32),
     /// Value and density near the direction to the viewer.
     pub at_viewer: (Rgb, f32),
-    /// What sampling it returns.
+    /// Outcome of sampling this BSDF.
     pub sampling: AuditSampling,
 }
 

@@ -13,7 +13,7 @@ use super::delta;
 use super::pack::{Base, Pack};
 use super::{is_file, is_folder};
 
-/// Why an object cannot be read.
+/// Reason why an object cannot be read.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Trouble {
     /// It is missing, or not what git writes.

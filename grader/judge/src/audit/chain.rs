@@ -64,7 +64,7 @@ pub(super) struct Surface {
     pub(super) density: f32,
     /// How far the shading normal leans from the next point to the last one, 0.7 by default.
     pub(super) lean: f32,
-    /// The same for the geometric normal.
+    /// How far the geometric normal leans from the next point to the last one.
     pub(super) geometric_lean: f32,
     /// True if sampling returns nothing.
     pub(super) samples_nothing: bool,
@@ -81,7 +81,7 @@ pub(super) struct Segment {
     pub(super) distance: f64,
     /// Cosine at the last surface, with the shading normal.
     pub(super) cos: f64,
-    /// The same with the geometric normal.
+    /// Cosine at the last surface, with the geometric normal.
     pub(super) geometric_cos: f64,
     /// Cosine at the light.
     pub(super) cos_light: f64,
