@@ -7,7 +7,7 @@ use super::intake::reader;
 use harness::workspace::Workspace;
 use present::streams::{note, print_line};
 use present::words;
-use verdict::error::Result;
+use verdict::error::{Error, Result};
 use verdict::report::Report;
 
 /// Say more about the next step: 1 = what its check saw, 2 = likely causes and their questions, 3 = where to look
@@ -24,6 +24,10 @@ pub(super) struct Arguments {
 const LEVELS: i64 = 3;
 
 pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
+    if !arguments.report.exists() {
+        let remedy = "there is no report yet: run `cargo grade` first, or name a report with --report";
+        return Err(Error::file(&arguments.report, remedy));
+    }
     let report = Report::load(&arguments.report)?;
     let path = PathBuf::from(&report.submission.path);
     let source = reader().read(&path).ok();
