@@ -52,7 +52,7 @@ fn shown(file: &std::path::Path, exposure: f32) -> Shot {
 /// The window after it has shown all samples of a technique.
 fn finished(program: &Program, technique: &str) -> Shot {
     program.wait_for_title(&format!("{technique} {SAMPLES} spp"));
-    program.shot(SIZE)
+    program.settled_shot(SIZE)
 }
 
 fn open(desktop: &Desktop) -> Program<'_> {

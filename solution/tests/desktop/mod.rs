@@ -10,6 +10,9 @@ use std::time::{Duration, Instant};
 /// How long something may take that normally takes a moment.
 const PATIENCE: Duration = Duration::from_secs(60);
 
+/// How long a picture must stay to count as settled.
+const SETTLED: Duration = Duration::from_millis(300);
+
 /// A virtual display without a window manager. It ends when this is dropped.
 pub(crate) struct Desktop {
     server: Child,
@@ -155,6 +158,18 @@ impl Program<'_> {
     /// The colours of the window.
     pub(crate) fn shot(&self, size: (usize, usize)) -> Shot {
         self.desktop.shot(size)
+    }
+
+    /// The window once it has stopped changing: a title may be set a moment before its picture is shown.
+    pub(crate) fn settled_shot(&self, size: (usize, usize)) -> Shot {
+        let mut last = self.shot(size);
+        until("a picture that stays", || {
+            std::thread::sleep(SETTLED);
+            let now = self.shot(size);
+            let stays = now.differs_from(&last) == 0;
+            last = now.clone();
+            stays.then_some(now)
+        })
     }
 
     /// Waits until the title contains a text.
