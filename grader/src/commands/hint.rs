@@ -13,7 +13,7 @@ use verdict::report::Report;
 /// Say more about the next step: 1 = what its check saw, 2 = likely causes and their questions, 3 = where to look
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// How much to say
+    /// Level of detail
     #[arg(value_name = "LEVEL", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=LEVELS))]
     level: u8,
     /// Report of the last grade

@@ -28,7 +28,7 @@ pub struct Audit {
 pub struct Fact {
     /// The part of the estimator.
     pub term: Term,
-    /// What was changed or looked at.
+    /// The factor that was changed or observed.
     pub factor: Factor,
     /// The technique.
     #[schemars(with = "crate::schema::TechniqueName")]
@@ -39,7 +39,7 @@ pub struct Fact {
     pub expected: f64,
     /// The measured value; `None` if there is none, or it is NaN or infinite.
     pub measured: Option<f64>,
-    /// Whether the fact holds.
+    /// Outcome of the comparison with the expected value.
     pub outcome: Outcome,
     /// A path for which a fact about paths fails.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -62,17 +62,17 @@ pub enum Term {
     HitWeight,
     /// Both MIS weights of one path.
     Weights,
-    /// Which paths contribute.
+    /// The set of paths that contribute.
     Path,
     /// Russian roulette.
     Roulette,
     /// The choice of a light.
     Selection,
-    /// What the program does besides.
+    /// Conduct of the program apart from its estimator.
     Conduct,
 }
 
-/// What was changed or looked at.
+/// A factor that is changed or observed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Factor {

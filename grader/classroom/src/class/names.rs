@@ -72,7 +72,7 @@ pub(super) enum Agreement {
     Part,
     /// The same words, where letters beyond ASCII are written in ASCII.
     Ascii,
-    /// The same words.
+    /// Both names consist of the same words.
     Full,
 }
 

@@ -5,7 +5,7 @@ use verdict::audit::{Fact, Factor, Outcome, Place, Term, Why};
 
 use super::measure::Measured;
 
-/// Where a fact is about.
+/// Term, technique and place of a fact.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct About {
     pub(super) term: Term,

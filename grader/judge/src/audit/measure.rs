@@ -34,7 +34,7 @@ pub(super) struct Measured {
     errors: [f64; 3],
 }
 
-/// How many paths are traced.
+/// Numbers of paths to trace.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Effort {
     /// Paths that show whether there are random decisions.

@@ -19,12 +19,12 @@ pub enum Planted {
     SharedSeed,
 }
 
-/// All of them.
+/// All planted programs.
 pub(super) const PLANTED: [Planted; 4] =
     [Planted::TenPercentSlower, Planted::HalfEfficient, Planted::OnePercentBias, Planted::SharedSeed];
 
 impl Planted {
-    /// What it is, for a table.
+    /// Description of the program, for the table.
     pub(super) fn title(self) -> &'static str {
         match self {
             Self::TenPercentSlower => "10 % slower: cost of a sample 1.1",

@@ -35,7 +35,7 @@ svg.convergence [fill=\"#FFFFFE\"] { fill: #17181c } svg.convergence [fill=\"#20
 svg.convergence [stroke=\"#202124\"] { stroke: #e6e6e9 } svg.convergence [stroke=\"#E4E4E7\"] { stroke: #33353c } \
 }</style>";
 
-/// What the error is drawn over.
+/// Horizontal axis of an error curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axis {
     /// Processor time.

@@ -23,7 +23,7 @@ mod next;
 pub use audit::print_audit;
 pub(crate) use lines::{loud, one_line, paint};
 
-/// How much of a report is shown.
+/// Level of detail of a summary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Detail {
     /// The points, and one next step.
