@@ -19,6 +19,6 @@ impl Assignment {
     /// # Errors
     /// If it cannot be read, or is wrong.
     pub fn rubric(&self, workspace: &Workspace) -> Result<Rubric> {
-        Rubric::load(&workspace.assignment(&self.name).join("rubric.yml"))
+        workspace.assignment(&self.name).rubric()
     }
 }

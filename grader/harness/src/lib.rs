@@ -5,6 +5,7 @@
 //! [`Error`](verdict::error::Error).
 
 pub mod assignment;
+pub mod assignment_folder;
 pub mod build;
 pub mod host_process;
 pub mod job;

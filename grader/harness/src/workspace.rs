@@ -1,9 +1,10 @@
 //! The checkout that a command works in, and the paths of its files.
 
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use verdict::error::{Error, Result};
+
+use crate::assignment_folder::AssignmentFolder;
 
 /// A checkout of the project.
 #[derive(Clone, Debug)]
@@ -92,50 +93,8 @@ impl Workspace {
     }
 
     /// Folder of an assignment. An absolute `name` is used as it is.
-    pub fn assignment(&self, name: &str) -> PathBuf {
-        self.root.join("assignments").join(name)
-    }
-
-    /// The starting file of an assignment, `starter.rs`: the student's file as it was handed out.
-    pub fn starter_file(&self, assignment: &str) -> PathBuf {
-        self.assignment(assignment).join("starter.rs")
-    }
-
-    /// Text of the starting file of an assignment; empty if the assignment has none.
-    ///
-    /// # Errors
-    /// If the file exists and cannot be read as UTF-8.
-    pub fn starter(&self, assignment: &str) -> Result<String> {
-        let path = self.starter_file(assignment);
-        match std::fs::read_to_string(&path) {
-            Err(error) if error.kind() == ErrorKind::NotFound => Ok(String::new()),
-            text => text.map_err(|error| Error::file(&path, error)),
-        }
-    }
-
-    /// Folder of the variants: versions of the solution with known mistakes.
-    pub fn variants(&self) -> PathBuf {
-        self.root.join("grader/variants")
-    }
-
-    /// Table of the checks that each variant fails.
-    pub fn kill_matrix(&self) -> PathBuf {
-        self.variants().join("kill-matrix.md")
-    }
-
-    /// Table of how often correct submissions fail.
-    pub fn calibration_table(&self) -> PathBuf {
-        self.variants().join("calibration.md")
-    }
-
-    /// Table of the coverage of convergence measurements.
-    pub fn coverage_table(&self) -> PathBuf {
-        self.variants().join("coverage.md")
-    }
-
-    /// Plot of the calibration table.
-    pub fn calibration_plot(&self) -> PathBuf {
-        self.variants().join("calibration.svg")
+    pub fn assignment(&self, name: &str) -> AssignmentFolder {
+        AssignmentFolder::new(self.root.join("assignments").join(name))
     }
 
     /// Cargo's target folder for the framework that submissions are linked against.
@@ -167,16 +126,6 @@ mod tests {
         assert_eq!(root(&here.join("scenes/extreme")), here);
         assert_eq!(root(folder.path()), built_from);
         assert!(Workspace::first([folder.path()]).is_none());
-    }
-
-    #[test]
-    fn the_starter_belongs_to_the_assignment_and_not_to_the_students_file() {
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        let workspace = Workspace { root: checkout(folder.path()) };
-        assert_eq!(workspace.starter("one").expect("an assignment need not have a starter"), "");
-        std::fs::create_dir_all(workspace.assignment("one")).expect("it can be made");
-        std::fs::write(workspace.starter_file("one"), "// TASK").expect("it can be written");
-        assert_eq!(workspace.starter("one").expect("it can be read"), "// TASK");
     }
 
     #[test]

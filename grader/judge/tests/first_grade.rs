@@ -46,8 +46,8 @@ fn points(report: &Report, task: &str) -> Option<f64> {
 
 #[test]
 fn the_untouched_starting_file_earns_nothing_because_of_what_it_renders() {
-    let starter =
-        std::fs::read_to_string(workspace().starter_file("05-nee-mis")).expect("the starting file is there");
+    let starter = std::fs::read_to_string(workspace().assignment("05-nee-mis").starter_file())
+        .expect("the starting file is there");
     let report = grade_source(&starter, &[]);
     assert_eq!(report.points.earned, 0.0, "{:#?}", report.tasks);
     assert_eq!(report.points.automatic_max, 70.0);

@@ -11,7 +11,6 @@ use harness::workspace::Workspace;
 use lab::mutants::{Kind, variants};
 use lab::output::{create_folder, write_text};
 use verdict::error::{Error, Result};
-use verdict::rubric::Rubric;
 
 /// Make a class of submissions from the committed variants of the solution
 #[derive(Parser)]
@@ -39,8 +38,8 @@ fn main() -> ExitCode {
 
 fn make(arguments: &Arguments) -> Result<()> {
     let workspace = Workspace::find()?;
-    let rubric = Rubric::load(&workspace.assignment(&arguments.assignment).join("rubric.yml"))?;
-    let all = variants(&workspace, &rubric)?.list;
+    let assignment = workspace.assignment(&arguments.assignment);
+    let all = variants(&workspace, &assignment, &assignment.rubric()?)?.list;
     let of_kind =
         |kind| all.iter().filter(move |variant| variant.kind == kind).map(|variant| variant.source.clone());
     let (right, wrong): (Vec<String>, Vec<String>) =

@@ -2,8 +2,8 @@
 //! `cargo lab signatures` makes the files.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
 
+use harness::assignment_folder::AssignmentFolder;
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
 use judge::checks::Quantity;
@@ -21,21 +21,25 @@ fn workspace() -> Workspace {
     Workspace::find().expect("the tests run inside the checkout")
 }
 
+fn assignment() -> AssignmentFolder {
+    workspace().assignment("05-nee-mis")
+}
+
 fn rubric() -> Rubric {
-    Rubric::load(&workspace().assignment("05-nee-mis").join("rubric.yml")).expect("it is sound")
+    assignment().rubric().expect("it is sound")
 }
 
 fn all() -> Vec<Variant> {
-    variants(&workspace(), &rubric()).expect("they are sound").list
+    variants(&workspace(), &assignment(), &rubric()).expect("they are sound").list
 }
 
 fn catalogue() -> Catalogue {
-    Catalogue::load(&workspace().assignment("05-nee-mis")).expect("causes and signatures fit")
+    Catalogue::load(&assignment()).expect("causes and signatures fit")
 }
 
 /// Observations that are not signatures.
 fn cases() -> Signatures {
-    Signatures::load(&workspace().variants().join("confusion.json")).expect("it is there")
+    Signatures::load(&assignment().confusion_data()).expect("it is there")
 }
 
 fn confusion(change: impl Fn(&ObservationVector) -> ObservationVector) -> Confusion {
@@ -57,8 +61,7 @@ fn every_wrong_variant_shows_one_cause_and_no_right_one_does() {
 
 #[test]
 fn signatures_are_never_tested_on_themselves() {
-    let file = Catalogue::signatures_file(&workspace().assignment("05-nee-mis"));
-    let learnt = Signatures::load(&file).expect("it is there");
+    let learnt = Signatures::load(&assignment().signatures_file()).expect("it is there");
     let learnt: BTreeSet<(&str, u64)> = learnt.all().map(|(variant, seed, _)| (variant, seed)).collect();
     assert!(cases().all().all(|(variant, seed, _)| !learnt.contains(&(variant, seed))));
 }
@@ -86,8 +89,7 @@ fn a_grade_that_stops_at_the_first_failures_still_names_the_cause_most_often() {
 /// Texts of causes decide nothing. The sentences of `present` cannot: `judge` does not depend on it (`layers.rs`).
 #[test]
 fn other_words_give_the_same_diagnosis() {
-    let assignment = workspace().assignment("05-nee-mis");
-    let file = std::fs::read_to_string(Catalogue::words_file(&assignment)).expect("it is there");
+    let file = std::fs::read_to_string(assignment().causes_file()).expect("it is there");
     let mut causes: serde_yaml::Value = serde_yaml::from_str(&file).expect("it is sound");
     let list = causes["causes"].as_sequence_mut().expect("it is a list");
     for (index, cause) in list.iter_mut().enumerate() {
@@ -95,12 +97,12 @@ fn other_words_give_the_same_diagnosis() {
         cause["hint"] = format!("Hint {index}").into();
     }
     let folder = tempfile::tempdir().expect("there is space");
-    let write = |path: PathBuf, text: String| std::fs::write(path, text).expect("there is space");
-    write(Catalogue::words_file(folder.path()), serde_yaml::to_string(&causes).expect("it is YAML"));
-    let signatures = Catalogue::signatures_file(&assignment);
-    std::fs::copy(signatures, Catalogue::signatures_file(folder.path())).expect("there is space");
+    let other = AssignmentFolder::new(folder.path());
+    let text = serde_yaml::to_string(&causes).expect("it is YAML");
+    std::fs::write(other.causes_file(), text).expect("there is space");
+    std::fs::copy(assignment().signatures_file(), other.signatures_file()).expect("there is space");
 
-    let (before, after) = (catalogue(), Catalogue::load(folder.path()).expect("causes and signatures fit"));
+    let (before, after) = (catalogue(), Catalogue::load(&other).expect("causes and signatures fit"));
     let hint = |catalogue: &Catalogue| catalogue.causes()[0].hint.clone();
     assert_ne!(hint(&before), hint(&after));
     for (variant, seed, vector) in cases().all().step_by(5) {
@@ -130,7 +132,7 @@ fn a_submission_that_passes_all_checks_has_no_cause() {
 
 #[test]
 fn the_confusion_matrix_is_up_to_date() {
-    let path = workspace().variants().join("confusion.md");
+    let path = assignment().confusion_table();
     let table = std::fs::read_to_string(&path).expect("it is there").replace("\r\n", "\n");
     let [wrong, first, named] = confusion(ObservationVector::clone).wrong();
     for line in [
@@ -180,7 +182,7 @@ fn the_wrong_factor_is_stated_first_in_programs_of_another_style() {
 #[test]
 fn an_untouched_starting_file_is_recognised() {
     let workspace = workspace();
-    let source = std::fs::read_to_string(workspace.starter_file("05-nee-mis")).expect("it is there");
+    let source = std::fs::read_to_string(assignment().starter_file()).expect("it is there");
     let submission = Submission { path: "render_pt.rs".into(), source };
     let options = Options {
         assignment: "05-nee-mis".into(),

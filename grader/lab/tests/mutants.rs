@@ -9,7 +9,6 @@ use harness::workspace::Workspace;
 use judge::grade::{Options, grade};
 use lab::mutants::{Kind, Variant, Variants, variants};
 use verdict::check::{CheckKind, Verdict};
-use verdict::rubric::Rubric;
 use verdict::submission::Submission;
 
 /// The numbers of the catalogue of mistakes.
@@ -24,8 +23,10 @@ fn workspace() -> Workspace {
 
 fn all() -> Variants {
     let workspace = workspace();
-    let rubric = Rubric::load(&workspace.assignment("05-nee-mis").join("rubric.yml")).expect("it is sound");
-    variants(&workspace, &rubric).expect("each replacement fits the solution, each task the rubric")
+    let assignment = workspace.assignment("05-nee-mis");
+    let rubric = assignment.rubric().expect("it is sound");
+    variants(&workspace, &assignment, &rubric)
+        .expect("each replacement fits the solution, each task the rubric")
 }
 
 #[test]
@@ -61,7 +62,7 @@ fn every_variant_compiles() {
 
 #[test]
 fn the_kill_matrix_lists_all_variants() {
-    let path = workspace().kill_matrix();
+    let path = workspace().assignment("05-nee-mis").kill_matrix();
     let table = std::fs::read_to_string(&path).expect("the table is there");
     let listed: Vec<&str> = table
         .lines()

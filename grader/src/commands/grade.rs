@@ -79,7 +79,7 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
     let options = arguments.options()?;
     let path = relative(arguments.submission.clone().unwrap_or_else(|| workspace.student_file()));
     let received = arguments.when.read(workspace, &arguments.assignment.name)?;
-    let starter = workspace.starter(&arguments.assignment.name)?;
+    let starter = workspace.assignment(&arguments.assignment.name).starter()?;
     let intake = arguments.take(&starter, &path)?;
     let file = arguments.out.join("report.json");
     prepare(arguments, &file)?;

@@ -45,7 +45,7 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
         2 => words::hint_on_causes(&report, &next),
         _ => {
             let text = source.map(|submission| submission.source).unwrap_or_default();
-            let sheet = workspace.assignment(&report.assignment).join("sheet.md");
+            let sheet = workspace.assignment(&report.assignment).sheet();
             let sheet = sheet.strip_prefix(workspace.root()).map(PathBuf::from).unwrap_or(sheet);
             let mut lines: Vec<String> = marks_of(&text, &next.task.id)
                 .into_iter()

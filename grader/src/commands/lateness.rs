@@ -6,7 +6,6 @@ use super::policy::policy;
 use classroom::policy::{Policy, Receipt, Standing, parse_received};
 use harness::workspace::Workspace;
 use verdict::error::{Error, Result};
-use verdict::rubric::Rubric;
 
 /// The options that say when a submission was received.
 #[derive(clap::Args)]
@@ -36,7 +35,7 @@ impl When {
     /// If a file or the time is wrong, or the rubric has no late policy.
     pub(super) fn read(&self, workspace: &Workspace, assignment: &str) -> Result<Option<Received>> {
         let Some(text) = &self.received_at else { return Ok(None) };
-        let rubric = Rubric::load(&workspace.assignment(assignment).join("rubric.yml"))?;
+        let rubric = workspace.assignment(assignment).rubric()?;
         let policy = policy(workspace, assignment, &rubric, self.course.as_deref())?;
         let policy =
             policy.ok_or_else(|| Error::Input("the rubric has no `policy` for late submissions".into()))?;

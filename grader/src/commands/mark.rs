@@ -122,7 +122,7 @@ fn mark_in_class(out: &Path, rows: &[Row], entries: &[Entry]) -> Result<ExitCode
 /// Records a mark of a submission that was graded alone, and adds it to its report and pages.
 fn mark_alone(arguments: &Arguments, workspace: &Workspace, entry: &Entry) -> Result<()> {
     let path = PathBuf::from(&entry.student);
-    let starter = workspace.starter(&arguments.assignment.name)?;
+    let starter = workspace.assignment(&arguments.assignment.name).starter()?;
     let intake = reader().take(std::slice::from_ref(&path), &starter, arguments.source.as_deref())?;
     for explanation in &intake.explanations {
         note(format_args!("{}: {}", harmless(&explanation.name), count(explanation.bytes, "byte")));

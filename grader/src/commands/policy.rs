@@ -18,7 +18,7 @@ pub(super) fn policy(
     rubric: &Rubric,
     course: Option<&Path>,
 ) -> Result<Option<Policy>> {
-    let beside = workspace.assignment(assignment).join("course.yml");
+    let beside = workspace.assignment(assignment).course_file();
     let file = course.map(Path::to_owned).or_else(|| beside.is_file().then_some(beside));
     let Some(rules) = &rubric.policy else {
         return match course {

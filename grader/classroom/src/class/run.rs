@@ -133,7 +133,7 @@ pub fn run(
 ) -> Result<Outcome> {
     let grader = Grader::new(workspace, &options.grade)?;
     let grader = if options.secret_seed { grader.with_secret_seed() } else { grader };
-    let starter_text = workspace.starter(&options.grade.assignment)?;
+    let starter_text = workspace.assignment(&options.grade.assignment).starter()?;
     let student_file = workspace.student_file();
     let student_file = student_file.strip_prefix(workspace.root()).unwrap_or(&student_file);
     let shared = Shared {

@@ -1,7 +1,7 @@
 //! What failed facts of the audit say about the cause.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use verdict::audit::Audit;
@@ -62,11 +62,6 @@ struct FactsFile {
 }
 
 impl LearntFacts {
-    /// Path of the file of an assignment.
-    pub fn file(assignment: &Path) -> PathBuf {
-        assignment.join("facts.json")
-    }
-
     /// Reads a file written by [`Self::save`].
     ///
     /// # Errors

@@ -23,9 +23,8 @@ pub use facts::{FactRow, FailedFact, LearntFacts};
 pub use observation::{CheckObservations, CheckState, Number, ObservationVector};
 pub use signatures::Signatures;
 
-use std::path::{Path, PathBuf};
-
 use arty::integrator::Technique;
+use harness::assignment_folder::AssignmentFolder;
 use serde::Deserialize;
 
 use verdict::check::CheckResult;
@@ -77,9 +76,9 @@ impl Catalogue {
     ///
     /// # Errors
     /// If one of the files is invalid, or a variant named by a cause has no signature.
-    pub fn load(assignment: &Path) -> Result<Self> {
-        let (words, measured) = (Self::words_file(assignment), Self::signatures_file(assignment));
-        let facts = LearntFacts::file(assignment);
+    pub fn load(assignment: &AssignmentFolder) -> Result<Self> {
+        let (words, measured) = (assignment.causes_file(), assignment.signatures_file());
+        let facts = assignment.facts_file();
         let catalogue = Self {
             causes: if words.is_file() {
                 arty::yaml::read::<CausesFile>(&words)?.0.causes
@@ -101,16 +100,6 @@ impl Catalogue {
             }
         }
         Ok(catalogue)
-    }
-
-    /// Path of the file with the causes.
-    pub fn words_file(assignment: &Path) -> PathBuf {
-        assignment.join("causes.yml")
-    }
-
-    /// Path of the file with the signatures.
-    pub fn signatures_file(assignment: &Path) -> PathBuf {
-        assignment.join("signatures.json")
     }
 
     /// The same causes with other signatures.

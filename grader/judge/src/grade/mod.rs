@@ -89,8 +89,8 @@ impl Grader {
     /// # Errors
     /// If any of these is invalid.
     pub fn new(workspace: &Workspace, options: &Options) -> Result<Self> {
-        let rubric_file = workspace.assignment(&options.assignment).join("rubric.yml");
-        let rubric = Rubric::load(&rubric_file)?;
+        let assignment = workspace.assignment(&options.assignment);
+        let rubric = assignment.rubric()?;
         plan::validate(&rubric)?;
         let selected = select(&rubric, &options.only)?;
         let start = Instant::now();
@@ -111,7 +111,7 @@ impl Grader {
             assignment: options.assignment.clone(),
             grader: env!("CARGO_PKG_VERSION").to_owned(),
             framework: framework.hash.clone(),
-            rubric: hash_of_file(&rubric_file)?,
+            rubric: hash_of_file(&assignment.rubric_file())?,
             references: hash_of_references(&scenes),
             seed: Some(options.seed),
             secret_seed: false,
@@ -128,8 +128,8 @@ impl Grader {
             workspace: workspace.clone(),
             skipped,
             provenance,
-            catalogue: Catalogue::load(&workspace.assignment(&options.assignment))?,
-            starter: workspace.starter(&options.assignment)?,
+            catalogue: Catalogue::load(&assignment)?,
+            starter: assignment.starter()?,
         })
     }
 

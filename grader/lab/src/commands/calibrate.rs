@@ -47,10 +47,13 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let rubric = arguments.assignment.rubric(&workspace)?;
+    let assigned = workspace.assignment(&arguments.assignment.name);
+    let rubric = assigned.rubric()?;
     let assignment = arguments.assignment.name.as_str();
-    let (right, wrong): (Vec<Variant>, Vec<Variant>) =
-        variants(&workspace, &rubric)?.list.into_iter().partition(|variant| variant.kind == Kind::Right);
+    let (right, wrong): (Vec<Variant>, Vec<Variant>) = variants(&workspace, &assigned, &rubric)?
+        .list
+        .into_iter()
+        .partition(|variant| variant.kind == Kind::Right);
     let folder =
         |name: &str| arguments.out.clone().unwrap_or_else(|| workspace.root().join("target").join(name));
     let Arguments { resampled, power, rivals, grades, pool, minutes, jobs, .. } = *arguments;
@@ -70,11 +73,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     };
     experiment.run()?;
     let (tables, plot) = experiment.summary();
-    write_text(&workspace.calibration_table(), &tables)?;
-    eprintln!("tables: {}", workspace.calibration_table().display());
+    write_text(&assigned.calibration_table(), &tables)?;
+    eprintln!("tables: {}", assigned.calibration_table().display());
     if let Some(plot) = plot {
-        write_text(&workspace.calibration_plot(), &plot)?;
-        eprintln!("plot: {}", workspace.calibration_plot().display());
+        write_text(&assigned.calibration_plot(), &plot)?;
+        eprintln!("plot: {}", assigned.calibration_plot().display());
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use crate::coverage::{Experiment, Records, table};
 use crate::output::write_text;
+use harness::assignment::Assignment;
 use harness::workspace::Workspace;
 use verdict::error::Result;
 
@@ -29,6 +30,8 @@ pub(super) struct Arguments {
     /// Stop after this many minutes; the next run resumes
     #[arg(long, value_name = "MINUTES")]
     minutes: Option<f64>,
+    #[command(flatten)]
+    assignment: Assignment,
     /// Folder for the results; existing results are reused [default: target/coverage]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -45,7 +48,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let command = format!(
         "cargo lab coverage --comparisons={comparisons} --planted={planted} --seconds={seconds} --load={load}"
     );
-    let path = workspace.coverage_table();
+    let path = workspace.assignment(&arguments.assignment.name).coverage_table();
     write_text(&path, &table(&records.current(), &command))?;
     eprintln!("table: {}", path.display());
     Ok(ExitCode::SUCCESS)

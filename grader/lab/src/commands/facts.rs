@@ -27,7 +27,7 @@ pub(super) struct Arguments {
 
 /// Diagnose each known mistake as if nobody had seen it, by facts alone
 ///
-/// Reads facts.json of the assignment, which `cargo lab facts` makes, and writes grader/variants/leave-one-out.md.
+/// Reads facts.json of the assignment, which `cargo lab facts` makes, and writes variants/leave-one-out.md there.
 #[derive(clap::Args)]
 pub(super) struct LeaveOneOut {
     #[command(flatten)]
@@ -36,8 +36,8 @@ pub(super) struct LeaveOneOut {
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let rubric = arguments.assignment.rubric(&workspace)?;
-    let mut list = variants(&workspace, &rubric)?.list;
+    let folder = workspace.assignment(&arguments.assignment.name);
+    let mut list = variants(&workspace, &folder, &folder.rubric()?)?.list;
     let all = arguments.only.is_empty();
     list.retain(|variant| all || arguments.only.contains(&variant.id));
     let learnt = measure(&workspace, &list, arguments.seed)?;
@@ -52,7 +52,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     }
     if all {
         let made_by = format!("cargo lab facts --seed={}", arguments.seed);
-        let file = LearntFacts::file(&workspace.assignment(&arguments.assignment.name));
+        let file = folder.facts_file();
         learnt.save(&file, &made_by)?;
         eprintln!("facts: {}", file.display());
     }
@@ -62,11 +62,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
 
 pub(super) fn run_leave_one_out(arguments: &LeaveOneOut) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let rubric = arguments.assignment.rubric(&workspace)?;
     let folder = workspace.assignment(&arguments.assignment.name);
-    let learnt = LearntFacts::load(&LearntFacts::file(&folder))?;
-    let table = leave_one_out(&Catalogue::load(&folder)?, &learnt, &variants(&workspace, &rubric)?.list);
-    let file = workspace.variants().join("leave-one-out.md");
+    let learnt = LearntFacts::load(&folder.facts_file())?;
+    let variants = variants(&workspace, &folder, &folder.rubric()?)?.list;
+    let table = leave_one_out(&Catalogue::load(&folder)?, &learnt, &variants);
+    let file = folder.leave_one_out_table();
     write_text(&file, &table)?;
     eprintln!("table: {}", file.display());
     print(table.lines().take(12).collect::<Vec<_>>().join("\n").as_str())?;

@@ -23,7 +23,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let folder = workspace.assignment(&arguments.assignment.name).join("figures");
+    let folder = workspace.assignment(&arguments.assignment.name).figures();
     create_folder(&folder)?;
     let program = Oracle::required(&workspace)?;
     for (name, panels) in FIGURES {

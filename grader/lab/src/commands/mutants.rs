@@ -36,8 +36,9 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let rubric = arguments.assignment.rubric(&workspace)?;
-    let all = variants(&workspace, &rubric)?;
+    let assignment = workspace.assignment(&arguments.assignment.name);
+    let rubric = assignment.rubric()?;
+    let all = variants(&workspace, &assignment, &rubric)?;
     let selected: Vec<&Variant> =
         all.list.iter().filter(|variant| is_selected(variant, &arguments.only)).collect();
     if selected.is_empty() {
@@ -65,7 +66,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let records: Vec<Vec<&Record>> = all.list.iter().map(|variant| ledger.records(variant)).collect();
     // Only a complete matrix replaces the committed one.
     let is_complete = records.iter().all(|records| !records.is_empty());
-    let file = if is_complete { workspace.kill_matrix() } else { folder.join("kill-matrix.md") };
+    let file = if is_complete { assignment.kill_matrix() } else { folder.join("kill-matrix.md") };
     write_text(&file, &table(&all, &rubric, &records))?;
     eprintln!("kill matrix: {}", file.display());
     print(&format!("{unexpected} of {} variants have an unexpected outcome\n", selected.len()))?;

@@ -14,7 +14,7 @@ use verdict::error::Result;
 /// correctly
 ///
 /// The grades of one seed become signatures.json of the assignment. The grades of all other seeds are diagnosed with
-/// these signatures; the result is written to grader/variants/confusion.md and confusion.json.
+/// these signatures; the result is written to its variants/confusion.md and confusion.json.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     #[command(flatten)]
@@ -29,17 +29,17 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let rubric = arguments.assignment.rubric(&workspace)?;
+    let folder = workspace.assignment(&arguments.assignment.name);
+    let rubric = folder.rubric()?;
     let grades = arguments.grades.clone().unwrap_or_else(|| workspace.root().join("target/mutants"));
     let ledger = Ledger::open(&grades, &workspace, &arguments.assignment.name)?;
-    let learnt = learn(&ledger, &variants(&workspace, &rubric)?.list, arguments.learn)?;
+    let learnt = learn(&ledger, &variants(&workspace, &folder, &rubric)?.list, arguments.learn)?;
 
     let made_by = format!("cargo lab signatures --learn={}", arguments.learn);
-    let folder = workspace.assignment(&arguments.assignment.name);
-    let signatures = Catalogue::signatures_file(&folder);
-    let table = workspace.variants().join("confusion.md");
+    let signatures = folder.signatures_file();
+    let table = folder.confusion_table();
     learnt.signatures.save(&signatures, &made_by)?;
-    learnt.cases.save(&table.with_extension("json"), &made_by)?;
+    learnt.cases.save(&folder.confusion_data(), &made_by)?;
     let (confusion, early) = learnt.confusion(&Catalogue::load(&folder)?, &rubric);
     write_text(&table, &confusion.table(&made_by, &early))?;
 

@@ -76,7 +76,7 @@ pub(super) fn for_students(workspace: &Workspace, assignment: &str) -> Result<Ve
 fn files(workspace: &Workspace, assignment: &str, audience: Audience) -> Result<Vec<(PathBuf, Vec<u8>)>> {
     let root = workspace.root();
     let own = workspace.assignment(assignment);
-    let own = own.strip_prefix(root).unwrap_or(&own).to_owned();
+    let own = own.path().strip_prefix(root).unwrap_or(own.path()).to_owned();
     let mut files = Vec::new();
     for name in INCLUDED.into_iter().map(PathBuf::from).chain(OF_ASSIGNMENT.map(|name| own.join(name))) {
         collect(root, &name, &mut files)?;

@@ -172,6 +172,6 @@ pub fn hash_of_inputs(workspace: &Workspace, assignment: &str) -> Result<blake3:
     let mut hasher = blake3::Hasher::new();
     hash_judging(workspace, &mut hasher)?;
     hash_tree(&root.join("references"), &[], &mut hasher)?;
-    hash_tree(&workspace.assignment(assignment).join("rubric.yml"), &[], &mut hasher)?;
+    hash_tree(&workspace.assignment(assignment).rubric_file(), &[], &mut hasher)?;
     Ok(hasher.finalize())
 }

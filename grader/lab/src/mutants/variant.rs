@@ -1,10 +1,11 @@
-//! Variants of the solution, read from `grader/variants/`.
+//! Variants of the solution, read from the folder of an assignment.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use serde::Deserialize;
 
+use harness::assignment_folder::AssignmentFolder;
 use harness::workspace::Workspace;
 use verdict::error::{Error, Result};
 use verdict::rubric::Rubric;
@@ -107,12 +108,12 @@ struct Replace {
 ///
 /// # Errors
 /// The first entry that does not fit the solution or the rubric.
-pub fn variants(workspace: &Workspace, rubric: &Rubric) -> Result<Variants> {
+pub fn variants(workspace: &Workspace, assignment: &AssignmentFolder, rubric: &Rubric) -> Result<Variants> {
     let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| Error::file(path, error));
     let solution = read(&workspace.solution_file())?.replace("\r\n", "\n");
     let tasks: Vec<&str> =
         rubric.tasks.iter().filter(|task| !task.manual).map(|task| task.id.as_str()).collect();
-    let folder = workspace.variants();
+    let folder = assignment.variants();
     let mut all = Variants { list: Vec::new(), not_possible: Vec::new() };
     let mut ids = BTreeSet::new();
     for kind in [Kind::Wrong, Kind::Right] {
