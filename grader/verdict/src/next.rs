@@ -68,6 +68,7 @@ impl Report {
             Cause::ConstantFactor { .. } => check.id.technique == Technique::Nee,
             Cause::FailedFact(fact) => check.id.technique == fact.technique,
             Cause::MisNotBegun => check.id.technique == Technique::Mis,
+            Cause::BsdfChanged => check.id.technique == Technique::Bsdf,
             Cause::Known { .. } => {
                 !matches!(check.reason, Reason::Crash | Reason::Timeout)
                     && diagnosis.seen.as_ref().is_some_and(|seen| task.checks.contains(&seen.wrong))

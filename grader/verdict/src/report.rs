@@ -252,6 +252,8 @@ pub enum Cause {
     NotBegun,
     /// The submission does not use the technique `mis`.
     MisNotBegun,
+    /// The technique `bsdf` is no longer plain BSDF sampling.
+    BsdfChanged,
 }
 
 impl Cause {
@@ -269,6 +271,7 @@ impl Cause {
             Self::ConstantFactor { .. } => "constant-factor",
             Self::NotBegun => "not-begun",
             Self::MisNotBegun => "mis-not-begun",
+            Self::BsdfChanged => "bsdf-changed",
         }
     }
 }

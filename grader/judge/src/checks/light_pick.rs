@@ -5,6 +5,9 @@
 //! such as `random * (n − 0.01)` is an error of less than a percent, which would take millions of paths to detect.
 //! Therefore the random numbers of the submission are stratified: the share of each light is exact, and a few thousand
 //! paths suffice.
+//!
+//! With the technique `bsdf`, no light is selected. A path never hits a point light, so these paths must be black: any
+//! light in them comes from light samples.
 
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
@@ -42,10 +45,6 @@ impl Check for LightPick {
         CheckKind::LightPick
     }
 
-    fn techniques(&self) -> &'static [Technique] {
-        &[Technique::Nee, Technique::Mis]
-    }
-
     fn bounces(&self) -> RangeInclusive<u32> {
         1..=1
     }
@@ -77,7 +76,10 @@ impl Check for LightPick {
             }
             means.push(mean);
         }
-        let shares: [Share; 3] = std::array::from_fn(|channel| Share::of(&means, channel));
+        let shares: [Share; 3] = std::array::from_fn(|channel| match spec.technique {
+            Technique::Bsdf => Share::of_none(&means, channel),
+            Technique::Nee | Technique::Mis => Share::of(&means, channel),
+        });
         let wrong = shares.iter().position(|share| !share.ratio.is_finite() || share.p_value < LEVEL);
         let evidence = LightShares {
             excess: shares.each_ref().map(|share| Some(share.ratio).filter(|ratio| ratio.is_finite())),
@@ -98,7 +100,7 @@ impl Check for LightPick {
 
 /// Contribution of one light.
 struct Share {
-    /// Relative error of the contribution.
+    /// Relative error of the contribution, or the contribution of a light that should have none.
     ratio: f64,
     /// p-value under correct selection. If the submission uses its random numbers in a way that stratification does not
     /// cover, the contribution varies from set to set, and larger errors are allowed.
@@ -106,6 +108,12 @@ struct Share {
 }
 
 impl Share {
+    /// The contribution of a light that no path can find, relative to that of a light sample. Any is an error.
+    fn of_none(means: &[[f64; 3]], channel: usize) -> Self {
+        let mean = means.iter().map(|mean| mean[channel]).sum::<f64>() / means.len() as f64;
+        Self { ratio: mean / expected(channel), p_value: if mean == 0.0 { 1.0 } else { 0.0 } }
+    }
+
     fn of(means: &[[f64; 3]], channel: usize) -> Self {
         let expected = expected(channel);
         let ratios: Vec<f64> = means.iter().map(|mean| mean[channel] / expected - 1.0).collect();
@@ -174,5 +182,13 @@ mod tests {
         assert_eq!(share(&[1.0005; 8]).p_value, 1.0);
         assert!(share(&[0.9966, 0.9967, 0.9966, 0.9967, 0.9966, 0.9967, 0.9966, 0.9967]).p_value < LEVEL);
         assert!(share(&[0.97, 1.02, 1.01, 0.99, 1.03, 0.98, 0.95, 1.01]).p_value > 0.01);
+    }
+
+    #[test]
+    fn without_light_samples_any_light_is_an_error() {
+        let share = |mean: f64| Share::of_none(&[[mean; 3], [0.0; 3]], 0);
+        assert_eq!((share(0.0).ratio, share(0.0).p_value), (0.0, 1.0));
+        assert!(share(1e-9).p_value < LEVEL && share(f64::NAN).ratio.is_nan());
+        assert!((share(2.0 * expected(0)).ratio - 1.0).abs() < 1e-12);
     }
 }

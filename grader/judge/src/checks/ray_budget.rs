@@ -11,7 +11,7 @@ use arty::integrator::{Settings, Technique};
 use arty::math::{Rgb, Vec3};
 use arty::scene::{Material, SceneDescription, Specular};
 use host::protocol::{ProbeJob, ProbedPath, ScriptedScene};
-use verdict::check::{CheckKind, Evidence, RayCounts, Reason, TooManyRays, WhyNot};
+use verdict::check::{CheckKind, Evidence, Fault, RayCounts, Reason, TooManyRays, WhyNot};
 use verdict::rubric::CheckSpec;
 
 use super::{Check, CheckOutcome, GradeContext, JobError, Observation, SceneWithReference};
@@ -67,15 +67,25 @@ impl Check for RayBudget {
         }
         let mirror = Specular::Mirror { reflectance: Rgb::gray(0.9) };
         let at_mirrors = probe(room(mirror, LIGHTS), spec.max_bounces)?;
-        let without_lights = probe(room(Specular::None, 0), spec.max_bounces)?;
+        // A panic there says nothing about the rays in the other rooms.
+        let (without_lights, panic_without_lights) = match probe(room(Specular::None, 0), spec.max_bounces) {
+            Ok(paths) => (paths, None),
+            Err(JobError::Submission(Fault::Panic(message))) => (Vec::new(), Some(message)),
+            Err(other) => return Err(other),
+        };
         let some = |paths: &[ProbedPath]| paths.iter().any(|path| path.shadow_rays > 0);
         let counts = RayCounts {
             excess,
             lights: LIGHTS,
             shadow_rays_at_mirrors: some(&at_mirrors),
             shadow_rays_without_lights: some(&without_lights),
+            panic_without_lights,
         };
-        let reason = if excess.is_some() { Reason::RayBudget } else { Reason::None };
+        let reason = match (excess, &counts.panic_without_lights) {
+            (Some(_), _) => Reason::RayBudget,
+            (None, Some(_)) => Reason::Crash,
+            (None, None) => Reason::None,
+        };
         Ok(CheckOutcome::new(reason, Evidence::RayBudget(counts), samples))
     }
 

@@ -1,7 +1,7 @@
 //! Causes that are found without comparing signatures.
 
 use arty::integrator::Technique;
-use verdict::check::{CheckKind, CheckResult, Evidence, Fault, Reason, WeightForm};
+use verdict::check::{CheckKind, CheckResult, Evidence, Fault, Reason, Verdict, WeightForm};
 use verdict::report::{Cause, Diagnosis, Report, SeenIn};
 
 use super::ExplainedCause;
@@ -45,6 +45,16 @@ fn found(cause: Cause, seen: Option<&CheckResult>, explains: &[Technique]) -> Ex
 fn is_todo(check: &CheckResult) -> bool {
     let Some(Fault::Panic(message)) = &check.fault else { return false };
     ["not yet implemented", "not implemented"].iter().any(|beginning| message.starts_with(beginning))
+}
+
+/// The cause of a check that fails with the technique `bsdf`, which the starting file passes.
+pub(super) fn bsdf_changed(report: &Report) -> Option<ExplainedCause> {
+    let is_wrong = |check: &&CheckResult| {
+        let says_why = matches!(check.reason, Reason::Crash | Reason::Timeout);
+        check.id.technique == Technique::Bsdf && check.verdict == Verdict::Fail && !says_why
+    };
+    let check = report.checks.iter().find(is_wrong)?;
+    Some(found(Cause::BsdfChanged, Some(check), &[Technique::Bsdf]))
 }
 
 /// A cause for submissions that no known mistake fits: direct light is wrong by the same factor in all scenes in which
@@ -145,6 +155,18 @@ mod tests {
         report.checks[0].reason = Reason::Bias;
         assert!(named(&report, "").is_empty());
         assert_eq!(named(&report, BLOCK), ["not-begun"]);
+    }
+
+    #[test]
+    fn plain_bsdf_sampling_that_fails_was_changed() {
+        let mut report = report("x");
+        report.checks[0].verdict = Verdict::Fail;
+        assert!(bsdf_changed(&report).is_none(), "it is another technique");
+        report.checks[0].id.technique = Technique::Bsdf;
+        let cause = bsdf_changed(&report).expect("it was changed");
+        assert!(cause.explains(Technique::Bsdf) && !cause.explains(Technique::Nee));
+        report.checks[0].reason = Reason::Timeout;
+        assert!(bsdf_changed(&report).is_none(), "it was not finished");
     }
 
     #[test]

@@ -130,21 +130,22 @@ impl Catalogue {
         }
         let explained = |technique: Technique| found.iter().any(|direct| direct.explains(technique));
         let vector = ObservationVector::of(report).without(explained);
-        if found.iter().all(|direct| !direct.is_everything()) {
+        if found.iter().all(|direct| !direct.is_everything()) && !vector.all_pass() {
             found.extend(self.compared(report, &vector));
         }
         if found.is_empty() {
             found.extend(direct::constant_factor(report));
         }
-        if found.is_empty() {
+        // Last, since it explains no failure of another technique.
+        let bsdf = direct::bsdf_changed(report);
+        if found.is_empty() && (bsdf.is_none() || !vector.all_pass()) {
             let several_fit = rank::something_fits(self, &vector);
-            return vec![Diagnosis {
-                cause: report::Cause::Unknown { several_fit },
-                confidence: 0.0,
-                seen: None,
-            }];
+            let cause = report::Cause::Unknown { several_fit };
+            let diagnosis = Diagnosis { cause, confidence: 0.0, seen: None };
+            found.push(ExplainedCause { diagnosis, explains: Vec::new() });
         }
-        found.truncate(MAX_CAUSES);
+        found.truncate(MAX_CAUSES - usize::from(bsdf.is_some()));
+        found.extend(bsdf);
         found.into_iter().map(|found| found.diagnosis).collect()
     }
 

@@ -7,6 +7,7 @@ use host::protocol::{AnomalousSample, RenderJob};
 use super::answers::{Answer, ExtremeScene};
 use harness::host_process::HostProcess;
 use harness::job::JobError;
+use verdict::check::Fault;
 
 /// Number of batches.
 const BATCHES: u64 = 32;
@@ -32,6 +33,8 @@ pub struct Measurement {
     pub negative: u64,
     /// The first such sample.
     pub first: Option<AnomalousSample>,
+    /// The message of a panic, after which nothing was measured.
+    pub panic: Option<String>,
     /// Number of paths traced.
     pub paths: u64,
     /// Processor time of all paths, in seconds.
@@ -86,6 +89,7 @@ pub fn measure(
         non_finite: rendered.non_finite,
         negative: rendered.negative,
         first: rendered.first_anomalies.into_iter().next(),
+        panic: None,
         paths: pixels * samples * BATCHES,
         seconds: rendered.cpu_seconds,
     })
@@ -125,16 +129,18 @@ pub struct ExtremeSceneResult {
 }
 
 impl ExtremeSceneResult {
-    /// True if the error is explained by rounding and noise, and all samples are radiance.
+    /// True if the error is explained by rounding and noise, all samples are radiance, and the program did not panic.
     pub fn is_right(&self) -> bool {
-        self.measured.is_clean() && self.measured.error(self.truth).abs() <= self.allowed
+        self.measured.panic.is_none()
+            && self.measured.is_clean()
+            && self.measured.error(self.truth).abs() <= self.allowed
     }
 }
 
-/// Measures the wanted extreme scenes that a technique can render.
+/// Measures the wanted extreme scenes that a technique can render. A panic in one of them is the result there.
 ///
 /// # Errors
-/// If the program gives no valid answer, or the grader itself fails.
+/// If the program otherwise gives no valid answer, or the grader itself fails.
 pub fn measure_all(
     process: &mut HostProcess,
     extremes: &[ExtremeScene],
@@ -150,7 +156,12 @@ pub fn measure_all(
         }
         let settings = Settings { technique, max_bounces: answer.max_bounces };
         let scene = process.load(description)?;
-        let measured = measure(process, scene, settings, answer.size, effort, seed)?;
+        let measured = match measure(process, scene, settings, answer.size, effort, seed) {
+            Err(JobError::Submission(Fault::Panic(message))) => {
+                Measurement { panic: Some(message), ..Measurement::default() }
+            }
+            measured => measured?,
+        };
         let compared = |name: &String| findings.iter().find(|finding| finding.scene == *name);
         let other = answer.same_as.as_ref().and_then(compared).map(|finding| finding.measured.mean);
         let truth = answer.radiance.or(other).unwrap_or(measured.mean);
@@ -200,5 +211,8 @@ mod tests {
         assert!(!finding(0.0, 1e-3, 0).is_right());
         assert!(!finding(f64::NAN, 1e-3, 0).is_right());
         assert!(!finding(1e-20, 1e-3, 1).is_right());
+        let mut panicked = finding(1e-20, 1e-3, 0);
+        panicked.measured.panic = Some("index out of bounds".to_owned());
+        assert!(!panicked.is_right());
     }
 }

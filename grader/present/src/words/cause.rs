@@ -43,6 +43,7 @@ pub fn title(cause: &Cause) -> String {
             );
         }
         Cause::NotBegun => "Nothing has been filled in yet: this is the starting file",
+        Cause::BsdfChanged => "With `bsdf`, the program is no longer plain BSDF sampling",
         Cause::MisNotBegun => "MIS has not been started: the file never checks for the technique `mis`",
     };
     text.to_owned()
@@ -81,6 +82,10 @@ pub fn hint(cause: &Cause) -> &str {
             "Start with the first task: at each hit point, choose a random point on a random light, test whether it is \
              visible, and add the light it reflects to the viewer. Try scenes/cornell_box_point.yml with `--technique=nee \
              --max-bounces=1`: BSDF sampling never hits a point light, so all the light you see there is yours."
+        }
+        Cause::BsdfChanged => {
+            "Figure 3 compares all three techniques, and `bsdf` is what the starting file did. Which of the contributions that \
+             you have added, and which weights, must not apply to it?"
         }
         Cause::MisNotBegun => {
             "First get all points for `nee`. Then write down, for one point on a light, the two densities with which it can \
@@ -121,7 +126,7 @@ pub fn seen(report: &Report, diagnosis: &Diagnosis) -> String {
         Cause::MisNotBegun => {
             "the weights ignore the densities, and no line of the file mentions `Mis`".to_owned()
         }
-        Cause::Known { .. } => in_checks(report, diagnosis),
+        Cause::BsdfChanged | Cause::Known { .. } => in_checks(report, diagnosis),
     }
 }
 

@@ -70,7 +70,7 @@ fn of_evidence(evidence: &Evidence, check: &CheckResult) -> String {
         Evidence::Metamorphic(test) => means::change(test, verdict),
         Evidence::WhiteFurnace(test) => means::furnace(test, verdict),
         Evidence::Efficiency(noise) => efficiency(noise, check.id.technique, verdict),
-        Evidence::LightPick(shares) => light_pick(shares),
+        Evidence::LightPick(shares) => light_pick(shares, check.id.technique),
         Evidence::MisWeights(test) => weights::weights(test),
         Evidence::Randomness(numbers) => randomness(*numbers),
         Evidence::PathLength(paths) => path_length(paths),
@@ -101,8 +101,11 @@ fn efficiency(noise: &Noise, technique: Technique, verdict: &Verdict) -> String 
 /// Factors that differ by less, relatively, are the same.
 const ALIKE: f64 = 0.01;
 
-fn light_pick(shares: &LightShares) -> String {
-    let share = light_share(shares);
+fn light_pick(shares: &LightShares, technique: Technique) -> String {
+    let share = light_share(shares, technique);
+    if technique == Technique::Bsdf {
+        return share;
+    }
     let Some(Some(excess)) = shares.wrong.map(|wrong| shares.excess.get(wrong as usize).copied().flatten())
     else {
         return share;
@@ -111,20 +114,33 @@ fn light_pick(shares: &LightShares) -> String {
         format!("{share}: the selection probability you divide by is not the one you sample with")
     } else if is_alike(1.0 + excess, 1.0 / shares.excess.len() as f64) {
         format!("{share}: divide by the selection probability")
+    } else if technique == Technique::Mis && excess < 0.0 {
+        // The selection is right, or the lights would differ.
+        format!("{share}: a path never hits a point light, so what weight must its light sample have?")
     } else {
         share
     }
 }
 
 /// What the lights contribute.
-fn light_share(shares: &LightShares) -> String {
+fn light_share(shares: &LightShares, technique: Technique) -> String {
     let Some(wrong) = shares.wrong else {
+        if technique == Technique::Bsdf {
+            return "no light is sampled, as it should be".to_owned();
+        }
         return "each of the three lights contributes what it should".to_owned();
     };
     let number = wrong + 1;
     let Some(excess) = shares.excess.get(wrong as usize).copied().flatten() else {
         return format!("light {number} of 3 contributes NaN or infinity");
     };
+    if technique == Technique::Bsdf {
+        let share = percent(excess, 0);
+        return format!(
+            "point light {number} contributes {share} of what a light sample finds, although BSDF sampling never hits it: \
+             light samples count with this technique, too"
+        );
+    }
     let share = percent(1.0 + excess, if excess.abs() < 0.05 { 2 } else { 0 });
     if is_common(shares, 1.0 + excess) {
         format!("each of the three lights contributes {share} of what it should")
@@ -181,7 +197,13 @@ fn path_length(paths: &PathLengths) -> String {
 
 fn ray_budget(rays: &RayCounts) -> String {
     let Some(TooManyRays { bounces, shadow_rays, rays: all, allowed }) = rays.excess else {
-        return "at most one shadow ray per bounce".to_owned();
+        return match &rays.panic_without_lights {
+            None => "at most one shadow ray per bounce".to_owned(),
+            Some(message) => format!(
+                "the program panics in a scene without lights: {message}; there is no light to select, so return black before \
+                 you select one. With lights, it traces at most one shadow ray per bounce"
+            ),
+        };
     };
     let room = format!("in a room with {}", count(rays.lights as usize, "light"));
     let bounces_of = count(bounces as usize, "bounce");
@@ -200,7 +222,7 @@ fn ray_budget(rays: &RayCounts) -> String {
 pub(super) fn observation(check: &CheckResult) -> String {
     match &check.evidence {
         _ if check.fault.is_some() || !check.was_run() => explanation(check),
-        Some(Evidence::LightPick(shares)) => light_share(shares),
+        Some(Evidence::LightPick(shares)) => light_share(shares, check.id.technique),
         Some(Evidence::Stability(test)) => stability::observation(test).unwrap_or_else(|| explanation(check)),
         _ if is_decided_by_samples(check) => {
             fault::counts(check.numerics.non_finite, check.numerics.negative)

@@ -54,7 +54,9 @@ fn sentence(finding: &StabilityFinding) -> String {
         }
         (None, _) => String::new(),
     };
-    format!("{}, {}{first}; likely cause: {}", scene_of(at), what(deviation), cause(likely_cause))
+    let cause = cause(likely_cause);
+    let cause = if cause.is_empty() { cause } else { format!("; likely cause: {cause}") };
+    format!("{}, {}{first}{cause}", scene_of(at), what(deviation))
 }
 
 fn scene_of(place: &Place) -> String {
@@ -89,6 +91,7 @@ fn what(deviation: &Deviation) -> String {
             let (found, expected) = (significant(found.0), significant(expected.0));
             format!("the mean is {found} instead of {expected} ({because})")
         }
+        Deviation::Panic { message } => format!("the program panics: {message}"),
         Deviation::NoRadiance { of_light_sample, value, pairs } => {
             let which = if *of_light_sample { "light" } else { "BSDF" };
             format!("the {which} sample returns {}{}", significant(value.0), of_pairs(*pairs))
@@ -104,6 +107,11 @@ fn what(deviation: &Deviation) -> String {
 
 fn cause(cause: &NumericalCause) -> String {
     let text = match cause {
+        NumericalCause::NoLights => {
+            "the scene has no lights, so there is none to select: return black before you select one"
+        }
+        // The message says it.
+        NumericalCause::Panic => "",
         NumericalCause::InvalidOperation => {
             "0/0, ∞/∞, or the square root or arc cosine of a number out of range"
         }

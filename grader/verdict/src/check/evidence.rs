@@ -138,7 +138,8 @@ pub enum SceneChange {
 /// Contribution of each of three lights.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LightShares {
-    /// Relative error of each contribution; `None` if it is not finite.
+    /// Relative error of each contribution; `None` if it is not finite. For the technique `bsdf`, which cannot find these
+    /// lights: the contribution relative to that of a light sample.
     pub excess: [Option<f64>; 3],
     /// The first light whose contribution is wrong, counted from 0; `None` if all are right.
     pub wrong: Option<u32>,
@@ -197,6 +198,9 @@ pub struct RayCounts {
     pub shadow_rays_at_mirrors: bool,
     /// True if shadow rays are traced in a scene without lights.
     pub shadow_rays_without_lights: bool,
+    /// The message of a panic in a scene without lights; `None` if there was none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub panic_without_lights: Option<String>,
 }
 
 /// Rays of a path that exceeds the budget of the sheet.

@@ -83,6 +83,11 @@ pub enum Deviation {
         /// Derivation of the exact mean.
         because: String,
     },
+    /// The program panics.
+    Panic {
+        /// Its message.
+        message: String,
+    },
     /// A path returns a value that is not radiance.
     NoRadiance {
         /// True if the light sample contributes it, false if the BSDF sample does.
@@ -121,6 +126,10 @@ impl Deviation {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum NumericalCause {
+    /// There is no light to select.
+    NoLights,
+    /// Whatever the message of the panic says.
+    Panic,
     /// 0/0, ∞/∞, or the square root or arc cosine of a number out of range.
     InvalidOperation,
     /// Division by zero, or an overflow.

@@ -15,7 +15,7 @@ mod pictures;
 use arty::integrator::{Settings, Technique};
 use harness::host_process::HostProcess;
 use verdict::check::{
-    CheckKind, Evidence, NumericalCause, Numerics, Reason, StabilityFinding, StabilityTest,
+    CheckKind, Deviation, Evidence, NumericalCause, Numerics, Reason, StabilityFinding, StabilityTest,
 };
 use verdict::replay::ReplayTarget;
 use verdict::rubric::CheckSpec;
@@ -65,7 +65,10 @@ impl Check for Stability {
 
     fn observations(&self, evidence: &Evidence) -> Vec<Observation> {
         let Evidence::Stability(test) = evidence else { return Vec::new() };
-        let graded = test.findings.iter().filter(|finding| finding.is_graded);
+        let says_where = |finding: &&StabilityFinding| {
+            finding.is_graded && !matches!(finding.deviation, Deviation::Panic { .. })
+        };
+        let graded = test.findings.iter().filter(says_where);
         let mut all: Vec<Observation> = Vec::new();
         for observation in graded.map(|finding| Observation::wrong_at((&finding.place).into())) {
             if !all.contains(&observation) {
@@ -81,7 +84,12 @@ fn conclude(findings: Vec<StabilityFinding>, samples: u64) -> CheckOutcome {
         findings.into_iter().partition(|finding| finding.is_graded);
     let sum = |which: usize| graded.iter().map(|finding| finding.deviation.anomalies()[which]).sum();
     let numerics = Numerics { non_finite: sum(0), negative: sum(1), first: None };
-    let reason = if graded.is_empty() { Reason::None } else { Reason::Bias };
+    let is_panic = |finding: &StabilityFinding| matches!(finding.deviation, Deviation::Panic { .. });
+    let reason = match graded.as_slice() {
+        [] => Reason::None,
+        findings if findings.iter().all(is_panic) => Reason::Crash,
+        _ => Reason::Bias,
+    };
     let findings = graded.into_iter().chain(remarks).collect();
     CheckOutcome::new(reason, Evidence::Stability(StabilityTest { findings }), samples).with(numerics)
 }
@@ -113,7 +121,7 @@ impl StabilityContext<'_> {
 
 #[cfg(test)]
 mod tests {
-    use verdict::check::{Deviation, Place, Verdict};
+    use verdict::check::{Place, Verdict};
 
     use super::*;
 
@@ -134,5 +142,15 @@ mod tests {
         let outcome = conclude(vec![finding(true, [1, 2])], 1);
         let numerics = &outcome.numerics;
         assert_eq!((outcome.reason, numerics.non_finite, numerics.negative), (Reason::Numerics, 1, 2));
+        // A panic in one scene hides nothing that was found in others, and looks like none of them.
+        let panic = StabilityFinding {
+            deviation: Deviation::Panic { message: "index out of bounds".to_owned() },
+            ..finding(true, [0, 0])
+        };
+        let alone = conclude(vec![panic.clone()], 1);
+        assert_eq!((alone.verdict, alone.reason), (Verdict::Fail, Reason::Crash));
+        assert!(Stability.observations(&alone.evidence).is_empty());
+        let both = conclude(vec![panic, finding(true, [0, 0])], 1);
+        assert_eq!((both.reason, Stability.observations(&both.evidence).len()), (Reason::Bias, 1));
     }
 }

@@ -41,6 +41,7 @@ pub(super) fn find(stability: &StabilityContext<'_>, process: &mut HostProcess) 
         let Some(extreme) = extreme else { continue };
         let suspect = match &picture.measured.first {
             Some(first) => Some(first.clone()),
+            None if picture.measured.panic.is_some() => None,
             None => first_black(stability, process, extreme, &picture)?,
         };
         found.push(describe(stability, extreme, &picture, suspect));
@@ -86,13 +87,19 @@ fn describe(
     suspect: Option<AnomalousSample>,
 ) -> StabilityFinding {
     let measure::ExtremeSceneResult { scene, truth, measured, settings, size, is_graded, .. } = picture;
-    let deviation = if measured.is_clean() {
+    let deviation = if let Some(message) = &measured.panic {
+        Deviation::Panic { message: message.clone() }
+    } else if measured.is_clean() {
         let because = extreme.answer.because.clone();
         Deviation::Mean { found: measured.mean.into(), expected: (*truth).into(), because }
     } else {
         Deviation::Anomalies { non_finite: measured.non_finite, negative: measured.negative }
     };
     let likely_cause = match suspect.as_ref().map(|sample| sample.value[1]) {
+        None if measured.panic.is_some() => {
+            let has_lights = arty::scene::Scene::new(&extreme.description).features().has_lights();
+            if has_lights { NumericalCause::Panic } else { NumericalCause::NoLights }
+        }
         Some(value) if !is_radiance(value) => cause_of(value),
         Some(_) => NumericalCause::HiddenNanOrOffset,
         None if measured.mean < *truth => NumericalCause::Limit,

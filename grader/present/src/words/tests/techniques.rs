@@ -51,6 +51,22 @@ fn selection_is_only_blamed_where_lights_differ() {
     ] {
         assert_eq!(fails(shares(excess, Some(0))), expected);
     }
+    let with = |technique, excess: [Option<f64>; 3], wrong| {
+        let mut check = check(Verdict::Fail, shares(excess, wrong));
+        check.id.technique = technique;
+        explanation(&check)
+    };
+    assert_eq!(
+        with(Technique::Mis, [Some(-0.23); 3], Some(0)),
+        "each of the three lights contributes 77 % of what it should: a path never hits a point light, so what weight must its \
+         light sample have?"
+    );
+    assert_eq!(
+        with(Technique::Bsdf, [Some(1.0); 3], Some(0)),
+        "point light 1 contributes 100 % of what a light sample finds, although BSDF sampling never hits it: light samples \
+         count with this technique, too"
+    );
+    assert_eq!(with(Technique::Bsdf, [Some(0.0); 3], None), "no light is sampled, as it should be");
     assert_eq!(passes(shares([Some(0.0); 3], None)), "each of the three lights contributes what it should");
 }
 
@@ -63,7 +79,13 @@ fn random_numbers_and_rays() {
             lights: 8,
             shadow_rays_at_mirrors: true,
             shadow_rays_without_lights: true,
+            panic_without_lights: None,
         })
+    };
+    let panicked = |excess| {
+        let Evidence::RayBudget(rays) = rays(excess) else { unreachable!("it is a budget of rays") };
+        let message = "index out of bounds (render_pt.rs:70)".to_owned();
+        fails(Evidence::RayBudget(RayCounts { panic_without_lights: Some(message), ..rays }))
     };
     let too_many = |bounces, shadow_rays, rays| {
         Some(TooManyRays { bounces, shadow_rays, rays, allowed: 1 + 3 * bounces })
@@ -80,6 +102,11 @@ fn random_numbers_and_rays() {
         (
             fails(Evidence::Randomness(shared)),
             "pixels share random numbers: sums over rows have 3.1 times the variance of independent pixels",
+        ),
+        (
+            panicked(None),
+            "the program panics in a scene without lights: index out of bounds (render_pt.rs:70); there is no light to select, \
+             so return black before you select one. With lights, it traces at most one shadow ray per bounce",
         ),
         (passes(rays(None)), "at most one shadow ray per bounce"),
         (
