@@ -15,17 +15,18 @@
 //! | [`accel`] | the acceleration structure: which triangle a ray hits |
 //! | [`bsdf`] | how surfaces scatter light |
 //! | [`light`] | light sources |
+//! | [`environment`] | light that arrives from outside of the scene |
 //! | [`camera`] | from pixels to rays |
 //! | [`diagnostic`] | errors and warnings about input files |
 //! | `input` | checks of input files, text files |
 //! | `yaml` | YAML files |
 //! | [`srgb`] | the sRGB transfer curve, exposure |
+//! | `image` | images in memory, in files, in a viewer |
 //! | [`scene`] | scenes: files, geometry, materials, what a ray hits |
 //! | [`integrator`] | the interface of light transport algorithms |
 //! | [`prelude`] | what an integrator needs, in one import |
 //! | [`film`] | accumulation of samples |
 //! | [`render`](mod@render) | from an integrator to a film |
-//! | `image` | images in memory, in files, in a viewer |
 //! | `cli` | the command line |
 //!
 //! # Units and conventions
@@ -49,10 +50,13 @@ pub mod sampler;
 pub mod accel;
 pub mod bsdf;
 pub mod camera;
+pub mod environment;
 pub mod light;
 pub mod ray;
 
 pub mod diagnostic;
+#[cfg(feature = "files")]
+pub mod image;
 #[cfg(feature = "files")]
 mod input;
 pub mod scene;
@@ -67,5 +71,3 @@ pub mod render;
 
 #[cfg(feature = "cli")]
 pub mod cli;
-#[cfg(feature = "files")]
-pub mod image;

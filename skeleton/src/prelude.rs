@@ -6,10 +6,13 @@
 //! 2. [`Scene::lights`] lists the lights; [`Light::sample_direct`] samples a point on one of them: a [`DirectSample`].
 //! 3. [`Scene::occluded`] tells whether something lies between a hit and that point.
 //! 4. [`Bsdf::eval`], [`Bsdf::pdf`] and [`Bsdf::sample`] tell how the surface scatters light: a [`BsdfSample`].
-//! 5. [`Sampler::next_1d`] and [`Sampler::next_2d`] are the only source of random numbers.
+//! 5. [`Scene::environment`] is the light from outside of the scene, where there is any: an [`Environment`].
+//! 6. [`Sampler::next_1d`] and [`Sampler::next_2d`] are the only source of random numbers.
 
 #[doc(inline)]
 pub use crate::bsdf::{Bsdf, BsdfSample};
+#[doc(inline)]
+pub use crate::environment::Environment;
 #[doc(inline)]
 pub use crate::integrator::{Integrator, Settings, Technique};
 #[doc(inline)]

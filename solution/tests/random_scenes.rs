@@ -73,6 +73,7 @@ fn scene() -> impl Strategy<Value = SceneDescription> {
                 textures: Vec::new(),
                 lights,
                 defaults: Defaults::default(),
+                environment: None,
             }
         },
     )

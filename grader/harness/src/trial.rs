@@ -64,6 +64,7 @@ fn empty_scene() -> SceneDescription {
         textures: Vec::new(),
         lights: Vec::new(),
         defaults: Defaults::default(),
+        environment: None,
     }
 }
 

@@ -51,6 +51,7 @@ fn requests() -> Vec<Vec<u8>> {
         textures: Vec::new(),
         lights: Vec::new(),
         defaults: Defaults::default(),
+        environment: None,
     };
     let job = RenderJob {
         scene: 0,

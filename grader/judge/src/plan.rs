@@ -91,11 +91,11 @@ fn why_not(spec: &CheckSpec, scene: &SceneWithReference) -> std::result::Result<
     let check = of_kind(spec.check);
     check.accepts(spec)?;
     let features = scene.scene.features();
-    if !features.has_lights() {
+    if !features.has_lights() && !features.environment {
         // Paths must end even without lights.
         return if spec.check == CheckKind::RayBudget { Ok(()) } else { Err(WhyNot::NoLights) };
     }
-    if spec.technique == Technique::Bsdf && features.area_lights == 0 {
+    if spec.technique == Technique::Bsdf && features.area_lights == 0 && !features.environment {
         return Err(WhyNot::BsdfFindsNothing);
     }
     check.applies(scene, spec)

@@ -15,6 +15,7 @@ pub fn empty() -> SceneDescription {
         textures: Vec::new(),
         lights: Vec::new(),
         defaults: Defaults::default(),
+        environment: None,
     }
 }
 
@@ -102,6 +103,8 @@ pub fn changed(scene: &SceneDescription, scale: f64, offset: DVec3, emission: f3
         .flat_map(|mesh| &mut mesh.positions)
         .for_each(|position| *position = at(*position));
     changed.materials.iter_mut().for_each(|material| material.emission *= emission);
+    let texels = changed.environment.iter_mut().flat_map(|environment| &mut environment.texels);
+    texels.for_each(|texel| *texel *= emission);
     let power_factor = (scale * scale * f64::from(emission)) as f32;
     for light in &mut changed.lights {
         match light {

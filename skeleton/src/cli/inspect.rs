@@ -5,8 +5,8 @@ use std::io::{self, Write as _};
 
 use super::args::Args;
 use super::plan::{max_bounces, size};
-use crate::scene::Scene;
 use crate::scene::file::Loaded;
+use crate::scene::{EnvironmentDescription, Scene};
 
 /// Prints the statistics and warnings of a scene.
 pub(super) fn print(args: &Args, loaded: &Loaded, scene: &Scene) {
@@ -29,6 +29,9 @@ fn text(args: &Args, loaded: &Loaded, scene: &Scene) -> String {
     ];
     if !description.textures.is_empty() {
         rows.push(("textures", format!("{}  ({texels} texels)", description.textures.len())));
+    }
+    if let Some(EnvironmentDescription { width, height, .. }) = &description.environment {
+        rows.push(("environment map", format!("{width} x {height} texels")));
     }
     let mut text = String::new();
     for (name, value) in rows {

@@ -13,14 +13,14 @@ use crate::scene::Features;
 /// What can be told before rendering.
 pub(super) fn before(algorithm: &Algorithm, features: &Features) -> Option<String> {
     let Algorithm::PathTracer(Settings { technique, .. }) = algorithm else { return None };
-    if !features.has_lights() {
+    if !features.has_lights() && !features.environment {
         return Some("the scene has no lights: the image will be black".to_owned());
     }
     if *technique != Technique::Bsdf || features.point_lights == 0 {
         return None;
     }
     let consequence = match features.area_lights {
-        0 => "the image will be black".to_owned(),
+        0 if !features.environment => "the image will be black".to_owned(),
         _ => format!("{} will be missing", counted(features.point_lights as u64, "point light")),
     };
     Some(format!("BSDF sampling never finds a point light, so {consequence}: use --technique=nee"))
@@ -32,7 +32,10 @@ pub(super) fn after(algorithm: &Algorithm, features: &Features, rendering: &Rend
         return None;
     }
     let is_black = rendering.film.pixels().iter().all(|pixel| pixel.sum == [0.0; 3]);
-    let lights = counted((features.area_lights + features.point_lights) as u64, "light");
+    let lights = match features.area_lights + features.point_lights {
+        0 => "an environment".to_owned(),
+        lights => counted(lights as u64, "light"),
+    };
     is_black.then(|| format!("the image is black: no sample found light, although the scene has {lights}"))
 }
 
@@ -92,6 +95,7 @@ mod tests {
             triangles: 10,
             area_lights,
             point_lights,
+            environment: false,
             delta_surfaces: 0,
             glossy_surfaces: 0,
             lit_surfaces: 0,

@@ -126,6 +126,7 @@ mod tests {
             textures: vec![],
             lights: vec![],
             defaults: Defaults::default(),
+            environment: None,
         })
     }
 

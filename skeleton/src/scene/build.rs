@@ -2,10 +2,11 @@
 
 use super::closed::encloses;
 use super::{
-    Attributes, Features, LightDescription, Material, Mesh, MeshTriangle, NONE, Scene, SceneDescription,
-    Specular, Surface, Triangle,
+    Attributes, EnvironmentDescription, Features, LightDescription, Material, Mesh, MeshTriangle, NONE,
+    Scene, SceneDescription, Specular, Surface, Triangle,
 };
 use crate::accel::Accel;
+use crate::environment::Environment;
 use crate::light::{Light, PointLight, Shape, SpotLight, TriangleLight};
 use crate::math::{Rgb, Vec3};
 
@@ -123,7 +124,8 @@ impl Builder {
         let (accel, closed) =
             rayon::join(|| Accel::build(&corners), || encloses(&self.opaque(), description.camera.eye));
         self.settle_duplicates(accel.duplicates());
-        let features = self.features(&accel, closed);
+        let features =
+            Features { environment: description.environment.is_some(), ..self.features(&accel, closed) };
         let mut warnings = Vec::new();
         if self.degenerate > 0 {
             warnings.push(format!("triangles without an area are ignored: {}", self.degenerate));
@@ -142,6 +144,7 @@ impl Builder {
             surfaces: self.surfaces,
             textures: description.textures.clone(),
             lights: self.lights,
+            environment: description.environment.as_ref().map(surround),
             camera: description.camera,
             defaults: description.defaults,
             features,
@@ -222,10 +225,17 @@ impl Builder {
             smooth_surfaces: count(&|triangle, _| {
                 self.attributes.get(triangle.attributes as usize).is_some_and(|it| it.normals.is_some())
             }),
+            environment: false,
             closed,
             hierarchy: accel.stats().nodes > 0,
         }
     }
+}
+
+fn surround(
+    EnvironmentDescription { width, height, texels, rotation }: &EnvironmentDescription,
+) -> Environment {
+    Environment::new(*width as usize, *height as usize, texels.clone(), *rotation)
 }
 
 /// The unit normal of the side from which the vertices are counter-clockwise; `None` for a triangle without an area.

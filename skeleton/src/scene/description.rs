@@ -3,7 +3,7 @@
 //! A description contains everything that a [`Scene`](super::Scene) is built from. It can be sent to another process, and
 //! its [hash](SceneDescription::hash) identifies the scene independently of how its files are written.
 
-use glam::{Vec2, Vec3};
+use glam::{Quat, Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
 use crate::camera::CameraDescription;
@@ -24,6 +24,8 @@ pub struct SceneDescription {
     pub lights: Vec<LightDescription>,
     /// Default render settings.
     pub defaults: Defaults,
+    /// Light from outside of the scene; `None` if there is none.
+    pub environment: Option<EnvironmentDescription>,
 }
 
 /// Triangles with shared vertex data.
@@ -151,6 +153,19 @@ pub enum LightDescription {
     },
 }
 
+/// An equirectangular map around the scene. [`Environment`](crate::environment::Environment) states its orientation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EnvironmentDescription {
+    /// Columns; at least 1.
+    pub width: u32,
+    /// Rows; at least 1.
+    pub height: u32,
+    /// Radiance, finite and not negative, row by row from the top; `width · height` texels.
+    pub texels: Vec<Rgb>,
+    /// Rotation from the map to world space: a unit quaternion.
+    pub rotation: Quat,
+}
+
 /// Default render settings of a scene; `None` if the file does not set them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Defaults {
@@ -164,6 +179,8 @@ pub struct Defaults {
 
 impl SceneDescription {
     /// BLAKE3 hash of the content, in hexadecimal. It does not depend on how the files are written.
+    ///
+    /// A scene without an environment has the hash that it had before scenes could have one.
     pub fn hash(&self) -> String {
         struct HashWriter(blake3::Hasher);
         impl std::io::Write for HashWriter {
@@ -176,7 +193,12 @@ impl SceneDescription {
             }
         }
         let writer = HashWriter(blake3::Hasher::new());
-        let writer = postcard::to_io(self, writer).expect("a hasher takes everything");
+        let Self { camera, meshes, materials, textures, lights, defaults, environment } = self;
+        let inside = (camera, meshes, materials, textures, lights, defaults);
+        let mut writer = postcard::to_io(&inside, writer).expect("a hasher takes everything");
+        if let Some(environment) = environment {
+            writer = postcard::to_io(environment, writer).expect("a hasher takes everything");
+        }
         writer.0.finalize().to_hex().to_string()
     }
 }

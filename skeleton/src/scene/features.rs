@@ -12,6 +12,8 @@ pub struct Features {
     pub area_lights: usize,
     /// Number of lights without an area: point and spot lights.
     pub point_lights: usize,
+    /// True if light arrives from outside of the scene.
+    pub environment: bool,
     /// Number of triangles with a delta lobe: mirror or glass.
     pub delta_surfaces: usize,
     /// Number of triangles with a Phong lobe.
@@ -29,7 +31,7 @@ pub struct Features {
 }
 
 impl Features {
-    /// True if there is at least one light.
+    /// True if there is at least one light, not counting the environment.
     pub fn has_lights(&self) -> bool {
         self.area_lights + self.point_lights > 0
     }
@@ -41,6 +43,11 @@ impl fmt::Display for Features {
         writeln!(f, "triangles          {}", count(self.triangles, "rays hit nothing"))?;
         writeln!(f, "area lights        {}", count(self.area_lights, "paths never hit a light"))?;
         writeln!(f, "point lights       {}", count(self.point_lights, "paths can hit every light"))?;
+        writeln!(
+            f,
+            "environment        {}",
+            if self.environment { "yes" } else { "no  (rays that leave the scene find no light)" }
+        )?;
         writeln!(f, "delta surfaces     {}", count(self.delta_surfaces, "no mirror or glass"))?;
         writeln!(f, "glossy surfaces    {}", count(self.glossy_surfaces, "no Phong lobes"))?;
         writeln!(

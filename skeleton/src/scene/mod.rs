@@ -13,6 +13,7 @@ mod texture;
 
 use crate::accel::Accel;
 use crate::camera::Camera;
+use crate::environment::Environment;
 use crate::light::Light;
 use crate::math::{Rgb, Vec2, Vec3};
 use crate::probe::{self, ScriptedBsdf};
@@ -32,6 +33,7 @@ pub struct Scene {
     surfaces: Vec<Surface>,
     textures: Vec<Texture>,
     lights: Vec<Light>,
+    environment: Option<Environment>,
     camera: CameraDescription,
     defaults: Defaults,
     features: Features,
@@ -98,6 +100,13 @@ impl Scene {
     #[inline]
     pub fn lights(&self) -> &[Light] {
         &self.lights
+    }
+
+    /// The light that arrives from outside of the scene, along rays that hit nothing; `None` if there is none. It is not one
+    /// of [`Scene::lights`].
+    #[inline]
+    pub fn environment(&self) -> Option<&Environment> {
+        self.environment.as_ref()
     }
 
     /// The camera of the scene for an image of the given size in pixels.

@@ -19,6 +19,7 @@ pub(crate) fn empty() -> SceneDescription {
         textures: Vec::new(),
         lights: Vec::new(),
         defaults: Defaults::default(),
+        environment: None,
     }
 }
 

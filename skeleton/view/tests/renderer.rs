@@ -40,7 +40,8 @@ impl Integrator for Noise {
 fn description() -> SceneDescription {
     let camera = CameraDescription { eye: Vec3::Z, center: Vec3::ZERO, up: Vec3::Y, fov: 60.0 };
     let (meshes, materials, textures, lights) = (vec![], vec![], vec![], vec![]);
-    SceneDescription { camera, meshes, materials, textures, lights, defaults: Defaults::default() }
+    let defaults = Defaults::default();
+    SceneDescription { camera, meshes, materials, textures, lights, defaults, environment: None }
 }
 
 fn traced(technique: Technique) -> Algorithm {

@@ -8,6 +8,7 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 
 use super::checks::{Colour, Number, Vector, bounces, field_of_view, mapping, pixels};
+use super::environment::EnvironmentEntry;
 use super::transform::{Step, compose};
 use crate::scene::{CameraDescription, Defaults, LightDescription};
 
@@ -16,6 +17,7 @@ pub(super) struct SceneFile {
     pub(super) meshes: Vec<MeshEntry>,
     pub(super) camera: CameraDescription,
     pub(super) lights: Vec<LightDescription>,
+    pub(super) environment: Option<EnvironmentEntry>,
     pub(super) defaults: Defaults,
 }
 
@@ -33,12 +35,13 @@ struct SceneKeys {
     meshes: Vec<MeshEntry>,
     camera: Camera,
     lights: Option<Vec<Light>>,
+    environment: Option<EnvironmentEntry>,
     defaults: Option<DefaultsKeys>,
 }
 
 impl<'de> Deserialize<'de> for SceneFile {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let expected = "a mapping with the keys `meshes`, `camera`, `lights` and `defaults`";
+        let expected = "a mapping with the keys `meshes`, `camera`, `lights`, `environment` and `defaults`";
         mapping::<_, SceneKeys, _>(deserializer, expected)
     }
 }
@@ -53,7 +56,7 @@ impl TryFrom<SceneKeys> for SceneFile {
             height: defaults.height,
             max_bounces: defaults.max_bounces,
         });
-        Ok(Self { meshes: keys.meshes, camera, lights, defaults })
+        Ok(Self { meshes: keys.meshes, camera, lights, environment: keys.environment, defaults })
     }
 }
 

@@ -18,6 +18,7 @@
 //!   - !point_light { position: [0, 2, 0], color: [10, 10, 10] }
 //!   - !spot_light { position: [0, 2, 0], direction: [0, -1, 0], inner: 20, outer: 30, color: [10, 10, 10] }
 //!   - !triangle_light { v0: [0, 2, 0], v1: [1, 2, 0], v2: [0, 2, 1], color: [5, 5, 5] }
+//! environment: { file: "sky.exr", rotate: { axis: [0, 1, 0], degrees: 30 }, scale: 2 }     # optional; or { color: [1, 1, 1] }
 //! defaults: { width: 512, height: 412, max_bounces: 8 }     # optional, each of the three too
 //! ```
 //!
@@ -29,6 +30,9 @@
 //! - **`lights`**: `color` is the power in watts of a `!point_light` and a `!spot_light`, and the radiance of a
 //!   `!triangle_light`, whose front is the side from which its vertices are counter-clockwise. `inner` and `outer` are angles
 //!   from the axis in degrees, 0 ≤ inner ≤ outer, 0 < outer ≤ 180.
+//! - **`environment`**: light from outside of the scene: a constant radiance `color`, or an equirectangular map in a `file`,
+//!   OpenEXR or Radiance HDR, of at most 2²⁵ texels. `rotate` (as in a `transform`) and the factor `scale` are optional.
+//!   [`Environment`](crate::environment::Environment) states the orientation of the map.
 //! - **`defaults`**: `width` and `height` from 1 to 65536.
 //!
 //! File names are relative to the file that contains them; both `/` and `\` separate folders. Text is UTF-8, with or
@@ -69,6 +73,7 @@
 //! sRGB.
 
 mod checks;
+mod environment;
 mod keys;
 mod materials;
 mod mtl;
@@ -79,8 +84,9 @@ mod transform;
 mod warnings;
 
 use std::collections::HashMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use self::environment::EnvironmentEntry;
 use self::keys::SceneFile;
 use self::materials::Materials;
 use self::text::relative_to;
@@ -113,16 +119,22 @@ pub fn load(path: &Path) -> Result<Loaded, Diagnostic> {
     // A scene may use the same file thousands of times, so its line is looked up once.
     let mut lines = HashMap::new();
     for mesh in &scene.meshes {
-        if mesh.file.contains(char::is_control) {
-            return Err(escaped(path, &mesh.file, &text));
-        }
-        let file = relative_to(path, &mesh.file);
+        let file = file_named(&mesh.file, path, &text)?;
         let line = *lines.entry(&mesh.file).or_insert_with(|| line_that_names(&mesh.file, &text));
         let named = Reference { file: path.to_owned(), line };
         let placement = Placement::new(mesh.transform);
         meshes.push(obj::read(&file, &named, &placement, &mut materials, &mut warnings)?);
     }
     let (materials, textures) = materials.into_parts();
+    let environment = match scene.environment {
+        None => None,
+        Some(EnvironmentEntry::Constant(radiance)) => Some(environment::constant(radiance)),
+        Some(EnvironmentEntry::Map { file: name, rotation, scale }) => {
+            let file = file_named(&name, path, &text)?;
+            let named = Reference { file: path.to_owned(), line: line_that_names(&name, &text) };
+            Some(environment::read(&file, &named, rotation, scale)?)
+        }
+    };
     let description = SceneDescription {
         camera: scene.camera,
         meshes,
@@ -130,8 +142,17 @@ pub fn load(path: &Path) -> Result<Loaded, Diagnostic> {
         textures,
         lights: scene.lights,
         defaults: scene.defaults,
+        environment,
     };
     Ok(Loaded { description, warnings: warnings.into_vec() })
+}
+
+/// The file that a scene file calls `name`.
+fn file_named(name: &str, scene: &Path, text: &str) -> Result<PathBuf, Diagnostic> {
+    if name.contains(char::is_control) {
+        return Err(escaped(scene, name, text));
+    }
+    Ok(relative_to(scene, name))
 }
 
 /// The error for a name with a control character: in double quotes, `\t` of a Windows path is a tab.

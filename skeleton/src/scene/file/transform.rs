@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use glam::{DAffine3, DMat3, DVec3, Vec3};
+use glam::{DAffine3, DMat3, DQuat, DVec3, Quat, Vec3};
 use serde::Deserialize;
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{Deserializer, Error, SeqAccess, Visitor};
@@ -120,6 +120,13 @@ impl TryFrom<RotationKeys> for Rotation {
     fn try_from(keys: RotationKeys) -> Result<Self, String> {
         let axis = keys.axis.double().try_normalize().ok_or("the axis of a rotation must not be zero")?;
         Ok(Self { axis, radians: keys.degrees.get().to_radians() })
+    }
+}
+
+impl Rotation {
+    /// As a unit quaternion, rounded once.
+    pub(super) fn quaternion(self) -> Quat {
+        DQuat::from_axis_angle(self.axis, self.radians).as_quat()
     }
 }
 

@@ -51,6 +51,7 @@ pub(super) fn scene(random: &mut Sampler) -> SceneDescription {
         textures: Vec::new(),
         lights,
         defaults: Defaults::default(),
+        environment: None,
     };
     let axis = Vec3::new(draw.between(-1.0, 1.0), draw.between(-1.0, 1.0), draw.between(0.1, 1.0));
     Transform {

@@ -63,6 +63,9 @@ impl Transform {
                 }
             };
         }
+        if let Some(environment) = &mut moved.environment {
+            environment.rotation = (self.rotation * environment.rotation).normalize();
+        }
         moved
     }
 }
@@ -72,6 +75,8 @@ pub(super) fn brightened(scene: &SceneDescription, factor: f32) -> SceneDescript
     let mut brighter = scene.clone();
     brighter.materials.iter_mut().for_each(|material| material.emission *= factor);
     brighter.lights.iter_mut().for_each(|light| *emitted(light) *= factor);
+    let texels = brighter.environment.iter_mut().flat_map(|environment| &mut environment.texels);
+    texels.for_each(|texel| *texel *= factor);
     brighter
 }
 
