@@ -25,6 +25,7 @@ use glam::{Mat3, Quat};
 
 use crate::math::{Rgb, Vec3};
 use crate::probe::{self, Call};
+use crate::sampler::Sampler;
 
 /// The light that arrives from outside of a scene. `Scene::environment` returns it.
 #[derive(Clone, Debug)]
@@ -35,6 +36,27 @@ pub struct Environment {
     texels: Vec<Rgb>,
     /// From world space to the space of the map.
     to_map: Mat3,
+}
+
+/// A direction towards the environment: the result of [`SampleDirections::sample`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DirectionSample {
+    /// The sampled unit direction, in world space, pointing away from the scene.
+    pub wi: Vec3,
+    /// Density per solid angle with which it was sampled, sr⁻¹; positive.
+    pub pdf: f32,
+}
+
+/// Sampling of directions towards an environment, always the same one.
+pub trait SampleDirections: Sync {
+    /// Samples a direction. `None` if there is none from which light arrives; such a sample contributes nothing.
+    ///
+    /// All randomness comes from `sampler`: equal samplers give equal results.
+    fn sample(&self, environment: &Environment, sampler: &mut Sampler) -> Option<DirectionSample>;
+
+    /// The density per solid angle, sr⁻¹, with which [`sample`](Self::sample) samples the unit direction `wi` (world
+    /// space).
+    fn pdf(&self, environment: &Environment, wi: Vec3) -> f32;
 }
 
 /// The largest number below 1.

@@ -8,7 +8,7 @@ use algorithms::{render_debug::DebugTracer, render_pt::PathTracer};
 use arty::cli::{self, Algorithm};
 
 fn main() -> ExitCode {
-    cli::run(|algorithm| match algorithm {
+    cli::run(|algorithm, _| match algorithm {
         Algorithm::Debug(view) => Box::new(DebugTracer::new(view)),
         Algorithm::PathTracer(settings) => Box::new(PathTracer::new(settings)),
     })

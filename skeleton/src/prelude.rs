@@ -7,12 +7,13 @@
 //! 3. [`Scene::occluded`] tells whether something lies between a hit and that point.
 //! 4. [`Bsdf::eval`], [`Bsdf::pdf`] and [`Bsdf::sample`] tell how the surface scatters light: a [`BsdfSample`].
 //! 5. [`Scene::environment`] is the light from outside of the scene, where there is any: an [`Environment`].
+//!    [`Scene::occluded_towards`] tells whether something keeps it from a hit.
 //! 6. [`Sampler::next_1d`] and [`Sampler::next_2d`] are the only source of random numbers.
 
 #[doc(inline)]
 pub use crate::bsdf::{Bsdf, BsdfSample};
 #[doc(inline)]
-pub use crate::environment::Environment;
+pub use crate::environment::{DirectionSample, Environment, SampleDirections};
 #[doc(inline)]
 pub use crate::integrator::{Integrator, Settings, Technique};
 #[doc(inline)]

@@ -10,7 +10,7 @@ use arty_view::{Program, run};
 
 fn main() -> ExitCode {
     run(&Program {
-        make: |algorithm| match algorithm {
+        make: |algorithm, _| match algorithm {
             Algorithm::Debug(view) => Box::new(DebugTracer::new(view)),
             Algorithm::PathTracer(settings) => Box::new(PathTracer::new(settings)),
         },

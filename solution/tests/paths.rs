@@ -18,7 +18,7 @@ use algorithms::{render_debug::DebugTracer, render_pt::PathTracer};
 
 const SIZE: (u32, u32) = (64, 48);
 
-fn make(algorithm: Algorithm) -> Box<dyn Integrator> {
+fn make(algorithm: Algorithm, _: &Scene) -> Box<dyn Integrator> {
     match algorithm {
         Algorithm::Debug(view) => Box::new(DebugTracer::new(view)),
         Algorithm::PathTracer(settings) => Box::new(PathTracer::new(settings)),

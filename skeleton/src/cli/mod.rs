@@ -70,12 +70,13 @@ impl DebugView {
     }
 }
 
-/// Runs the program with the arguments of this process; `make` makes the integrator for an algorithm.
+/// Runs the program with the arguments of this process; `make` makes the integrator for an algorithm and
+/// the scene that it will render.
 ///
 /// The exit status is 0 on success; 2 for an invalid command line, scene or output file, which is detected before
 /// anything is rendered; 3 for an internal error or a panic of the algorithm; 130 after an interruption (the image is
 /// saved with the samples rendered so far).
-pub fn run(make: impl FnOnce(Algorithm) -> Box<dyn Integrator>) -> ExitCode {
+pub fn run(make: impl FnOnce(Algorithm, &Scene) -> Box<dyn Integrator>) -> ExitCode {
     let args = match Args::read(std::env::args_os()) {
         Ok(args) => args,
         Err(answer) => return exit::answer(&answer),
@@ -89,7 +90,10 @@ pub fn run(make: impl FnOnce(Algorithm) -> Box<dyn Integrator>) -> ExitCode {
     }
 }
 
-fn execute(mut args: Args, make: impl FnOnce(Algorithm) -> Box<dyn Integrator>) -> Result<Exit, Failure> {
+fn execute(
+    mut args: Args,
+    make: impl FnOnce(Algorithm, &Scene) -> Box<dyn Integrator>,
+) -> Result<Exit, Failure> {
     args.scene = scene_name::resolve(&args.scene)?;
     let args = &args;
     if args.view {
@@ -121,7 +125,7 @@ fn execute(mut args: Args, make: impl FnOnce(Algorithm) -> Box<dyn Integrator>) 
         messages::plain(format_args!("rendering {}: {plan}", args.scene.display()));
     }
     session::print_first_panic_only();
-    let integrator = make(plan.algorithm);
+    let integrator = make(plan.algorithm, &scene);
     let mut progress = Progress::new(args.quiet);
     let mut live = Live::open(args.tev.as_deref(), provenance.title(), &plan);
     let rendering = session::render_scene(&*integrator, &scene, &plan, &stop, |film, state| {

@@ -96,6 +96,17 @@ impl Scene {
         occluded
     }
 
+    /// Traces a shadow ray to the environment: true if any surface, glass included, lies in a direction (world space) from a
+    /// hit, however far away. The surface that was hit does not count.
+    #[inline]
+    pub fn occluded_towards(&self, hit: &Hit<'_>, direction: Vec3) -> bool {
+        probe::count_shadow_ray();
+        let origin = hit.leave_towards(direction);
+        let occluded = self.accel.intersect(origin, direction, f32::INFINITY, Some(hit.primitive)).is_some();
+        probe::record(|| recorded::occluded_towards(hit, direction, occluded));
+        occluded
+    }
+
     /// All lights. [`Light::index`] is the index into this slice.
     #[inline]
     pub fn lights(&self) -> &[Light] {

@@ -23,6 +23,13 @@ pub(super) fn occluded(hit: &Hit<'_>, point: Vec3, occluded: bool) -> Call {
     Call::new("Scene::occluded").given("from", hit.point).given("point", point).got("occluded", occluded)
 }
 
+pub(super) fn occluded_towards(hit: &Hit<'_>, direction: Vec3, occluded: bool) -> Call {
+    Call::new("Scene::occluded_towards")
+        .given("from", hit.point)
+        .given("direction", direction)
+        .got("occluded", occluded)
+}
+
 pub(super) fn cos(wi: Vec3, cos: f32) -> Call {
     Call::new("Hit::cos").given("wi", wi).got("cos", cos)
 }

@@ -149,7 +149,8 @@ impl<Publish: Fn(News, Option<Frame>)> Worker<Publish> {
                 Next::Begin(new, new_number) => {
                     (view, number, panicked) = (Some(new), new_number, false);
                     let (width, height) = (self.setup.width, self.setup.height);
-                    let part = |algorithm| Part::new(algorithm, (self.make)(algorithm), width, height);
+                    let part =
+                        |algorithm| Part::new(algorithm, (self.make)(algorithm, &self.scene), width, height);
                     parts = new.algorithms().into_iter().map(part).collect();
                 }
                 Next::Refine => {

@@ -3,9 +3,10 @@
 use arty::camera::CameraDescription;
 use arty::cli::{Algorithm, DebugView};
 use arty::integrator::{Integrator, Settings};
+use arty::scene::Scene;
 
-/// Makes the integrator for an algorithm, as `arty::cli::run` does.
-pub type Make = fn(Algorithm) -> Box<dyn Integrator>;
+/// Makes the integrator for an algorithm and a scene, as `arty::cli::run` does.
+pub type Make = fn(Algorithm, &Scene) -> Box<dyn Integrator>;
 
 /// A picture to render, or two to compare.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -58,7 +58,7 @@ fn start(view: View, samples: Option<u64>) -> (Renderer, Receiver<News>) {
     let scene = Arc::new(Scene::new(&description));
     let setup = Setup { description, width, height, seed: 5, samples, threads: 2, reference: None };
     let (sender, news) = channel();
-    let make = |algorithm| Box::new(Noise(algorithm)) as Box<dyn Integrator>;
+    let make = |algorithm, _: &Scene| Box::new(Noise(algorithm)) as Box<dyn Integrator>;
     let renderer = Renderer::start(scene, make, setup, view, move |news| drop(sender.send(news)));
     (renderer.expect("it starts"), news)
 }

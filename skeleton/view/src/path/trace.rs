@@ -16,7 +16,7 @@ use crate::view::Make;
 
 /// Traces the paths that were asked for, on this thread. `size` is that of the picture in pixels.
 pub fn trace(scene: &Scene, make: Make, query: &Query, size: (u32, u32), seed: u64) -> Traced {
-    let integrator = make(Algorithm::PathTracer(query.settings));
+    let integrator = make(Algorithm::PathTracer(query.settings), scene);
     let camera = Camera::new(&query.camera, size.0, size.1);
     let sample = |number| sample_pixel(&*integrator, scene, &camera, seed, query.pixel, number);
     let recorded = |number| {
