@@ -208,6 +208,17 @@ fn every_attack_ends_as_it_must_and_harms_nobody_else() {
 }
 
 #[test]
+fn knowing_a_public_scene_is_right_there_and_earns_nothing() {
+    let workspace = workspace();
+    let file = workspace.root().join("grader/hostile/known_scene.rs");
+    let source = std::fs::read_to_string(file).expect("the file is there");
+    let report = grade_source(&workspace, source, "3");
+    let verdicts: Vec<Verdict> = report.checks.iter().map(|check| check.verdict.clone()).collect();
+    assert_eq!(verdicts, [Verdict::Pass, Verdict::Fail], "{:#?}", report.checks);
+    assert_eq!(report.points.earned, 0.0);
+}
+
+#[test]
 fn the_corpus_and_its_index_are_about_the_same_files() {
     let folder = workspace().root().join("grader/hostile");
     let text = std::fs::read_to_string(folder.join("index.yml")).expect("the index is there");

@@ -65,15 +65,16 @@ pub fn why_skipped(
     has_solution: bool,
 ) -> Option<WhyNot> {
     match scene {
-        Some(scene) => why_not(spec, scene).err(),
         None if spec.check.needs_scene() => Some(WhyNot::SceneNotHere),
-        None => (needs_staff(spec) && !has_solution).then_some(WhyNot::NoSolution),
+        _ if spec.check.draws_scenes() && !has_solution => Some(WhyNot::NoSolution),
+        Some(scene) => why_not(spec, scene).err(),
+        None => None,
     }
 }
 
 /// True if only staff can run the check. If it is skipped for that reason, its points are kept open.
 pub fn needs_staff(spec: &CheckSpec) -> bool {
-    spec.visibility() == Visibility::StaffOnly
+    spec.visibility() == Visibility::StaffOnly || spec.check.draws_scenes()
 }
 
 /// All kinds of checks that do not apply to the scenes of a grade.

@@ -4,6 +4,7 @@
 //! [`CheckKind`] and its measurements in [`Evidence`](verdict::check::Evidence). Plan,
 //! rubric, grade and diagnosis use the registry.
 
+mod against_solution;
 mod check;
 mod closed_form;
 mod context;
@@ -20,6 +21,7 @@ mod ray_budget;
 mod stability;
 #[cfg(test)]
 mod test_scenes;
+mod varied_scene;
 mod white_furnace;
 
 pub use check::{Check, CheckOutcome, Observation, Quantity, WrongPlace};
@@ -42,6 +44,7 @@ static REGISTRY: [&dyn Check; CheckKind::ALL.len()] = [
     &randomness::Randomness,
     &ray_budget::RayBudget,
     &stability::Stability,
+    &varied_scene::VariedScene,
     &white_furnace::WhiteFurnace,
 ];
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use arty::integrator::Technique;
 use serde::{Deserialize, Serialize};
-use verdict::check::{CheckId, CheckKind, CheckResult, Reason, Verdict};
+use verdict::check::{CheckId, CheckResult, Reason, Verdict};
 use verdict::report::Report;
 
 use crate::checks::{Quantity, of_kind};
@@ -68,11 +68,11 @@ pub struct CheckObservations {
 pub struct ObservationVector(pub BTreeMap<CheckId, CheckObservations>);
 
 impl ObservationVector {
-    /// The observations of a report's checks that were run, without `hidden-variants`, whose scenes depend on the seed, and
-    /// without the technique `bsdf`, which students only have to leave alone.
+    /// The observations of a report's checks that were run, without kinds whose scenes depend on the seed, and without the
+    /// technique `bsdf`, which students only have to leave alone.
     pub fn of(report: &Report) -> Self {
         let seen = |check: &CheckResult| {
-            if check.id.kind == CheckKind::HiddenVariants || check.id.technique == Technique::Bsdf {
+            if check.id.kind.draws_scenes() || check.id.technique == Technique::Bsdf {
                 return None;
             }
             let state = CheckState::of(check)?;

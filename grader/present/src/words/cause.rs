@@ -192,7 +192,9 @@ fn what_is_right(check: &CheckResult) -> String {
         CheckKind::Efficiency => "the variance",
         CheckKind::Randomness => "the use of random numbers",
         CheckKind::Metamorphic => "the image of the changed scene",
-        CheckKind::ClosedForm | CheckKind::MeanBias | CheckKind::WhiteFurnace => light(check),
+        CheckKind::ClosedForm | CheckKind::MeanBias | CheckKind::VariedScene | CheckKind::WhiteFurnace => {
+            light(check)
+        }
     };
     format!("{quantity} is correct in {scene} (`{technique}`)")
 }

@@ -65,7 +65,9 @@ fn is_decided_by_samples(check: &CheckResult) -> bool {
 fn of_evidence(evidence: &Evidence, check: &CheckResult) -> String {
     let verdict = &check.verdict;
     match evidence {
-        Evidence::ClosedForm(test) | Evidence::MeanBias(test) => means::mean(test, verdict),
+        Evidence::ClosedForm(test) | Evidence::MeanBias(test) | Evidence::VariedScene(test) => {
+            means::mean(test, verdict)
+        }
         Evidence::HiddenVariants(test) => means::variant(test, verdict),
         Evidence::Metamorphic(test) => means::change(test, verdict),
         Evidence::WhiteFurnace(test) => means::furnace(test, verdict),
@@ -301,6 +303,9 @@ pub fn about(kind: CheckKind) -> &'static str {
         CheckKind::PathLength => "counts the bounces of paths in a closed room of mirrors",
         CheckKind::RayBudget => "counts the rays traced for each path",
         CheckKind::Stability => "tests very small and very large scenes, radiances and densities",
+        CheckKind::VariedScene => {
+            "compares means with the solution's in a variation of the scene that depends on the seed"
+        }
         CheckKind::WhiteFurnace => {
             "renders a closed surface that emits uniformly, where the energy of each bounce is known"
         }

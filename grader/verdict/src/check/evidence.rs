@@ -23,6 +23,7 @@ pub enum Evidence {
     Randomness(RandomNumbers),
     RayBudget(RayCounts),
     Stability(StabilityTest),
+    VariedScene(MeanTest),
     WhiteFurnace(FurnaceTest),
 }
 
@@ -41,6 +42,7 @@ impl Evidence {
             Self::Randomness(_) => CheckKind::Randomness,
             Self::RayBudget(_) => CheckKind::RayBudget,
             Self::Stability(_) => CheckKind::Stability,
+            Self::VariedScene(_) => CheckKind::VariedScene,
             Self::WhiteFurnace(_) => CheckKind::WhiteFurnace,
         }
     }
@@ -48,7 +50,7 @@ impl Evidence {
     /// The test of the picture whose mean decided; `None` for kinds that do not test means.
     pub fn mean_test(&self) -> Option<&MeanTest> {
         match self {
-            Self::ClosedForm(test) | Self::MeanBias(test) => Some(test),
+            Self::ClosedForm(test) | Self::MeanBias(test) | Self::VariedScene(test) => Some(test),
             Self::HiddenVariants(VariantTest { test, .. })
             | Self::Metamorphic(ChangeTest { test, .. })
             | Self::WhiteFurnace(FurnaceTest { test, .. }) => Some(test),

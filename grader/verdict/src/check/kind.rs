@@ -30,13 +30,15 @@ pub enum CheckKind {
     RayBudget,
     /// Scenes and densities near the limits of single precision.
     Stability,
+    /// Means in a random variation of a known scene, against the solution.
+    VariedScene,
     /// Means against the closed form of a uniformly emitting enclosure (white furnace test).
     WhiteFurnace,
 }
 
 impl CheckKind {
     /// All kinds, by name.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::ClosedForm,
         Self::Efficiency,
         Self::HiddenVariants,
@@ -48,6 +50,7 @@ impl CheckKind {
         Self::Randomness,
         Self::RayBudget,
         Self::Stability,
+        Self::VariedScene,
         Self::WhiteFurnace,
     ];
 
@@ -65,6 +68,7 @@ impl CheckKind {
             Self::Randomness => "randomness",
             Self::RayBudget => "ray-budget",
             Self::Stability => "stability",
+            Self::VariedScene => "varied-scene",
             Self::WhiteFurnace => "white-furnace",
         }
     }
@@ -73,6 +77,12 @@ impl CheckKind {
     /// nothing new about a submission that is wrong in the known scenes.
     pub fn tests_generalisation(self) -> bool {
         matches!(self, Self::HiddenVariants | Self::Metamorphic | Self::Stability)
+    }
+
+    /// True if its scenes depend on the seed. What it should give is then rendered by the solution during the grade, and
+    /// its measurements cannot be compared with those of another grade.
+    pub fn draws_scenes(self) -> bool {
+        matches!(self, Self::HiddenVariants | Self::VariedScene)
     }
 
     /// True if it runs in a scene of `scenes/`.

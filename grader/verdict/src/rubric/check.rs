@@ -21,7 +21,8 @@ pub struct CheckSpec {
     /// `off` if emission on hit is black, so that only next event estimation finds light.
     #[serde(default)]
     pub emission_on_hit: EmissionOnHit,
-    /// Weight of the check in the points of its task.
+    /// Weight of the check in the points of its task. A required check may weigh nothing: it then decides whether there
+    /// are points, not how many.
     #[serde(default = "one")]
     pub weight: f64,
     /// True if it must pass for any points in the task. The untouched starting file must fail such a check.
@@ -129,7 +130,7 @@ impl CheckSpec {
             // Other techniques are compared with their noise where emission is on.
             CheckKind::Efficiency if self.emission_on_hit == EmissionOnHit::Off => vec![self.technique],
             CheckKind::Efficiency => [&[self.technique], rivals(self.technique)].concat(),
-            CheckKind::Randomness => Vec::new(),
+            CheckKind::Randomness | CheckKind::VariedScene => Vec::new(),
             _ => vec![self.technique],
         }
     }
@@ -139,8 +140,9 @@ impl CheckSpec {
     /// # Errors
     /// The first wrong value.
     pub(super) fn validate(&self) -> Result<(), String> {
-        if !(self.weight.is_finite() && self.weight > 0.0) {
-            return Err("`weight` must be a positive number".to_owned());
+        let is_allowed = self.weight > 0.0 || (self.weight == 0.0 && self.required);
+        if !(self.weight.is_finite() && is_allowed) {
+            return Err("`weight` must be a positive number, or 0 for a required check".to_owned());
         }
         if self.check.needs_scene() == (self.scene == SCRIPTED) {
             let what = if self.check.needs_scene() { "needs a `scene`" } else { "takes no `scene`" };

@@ -125,7 +125,11 @@ impl Rubric {
     pub fn scenes(&self) -> BTreeMap<&str, BTreeMap<View, Vec<Technique>>> {
         let mut scenes: BTreeMap<&str, BTreeMap<View, Vec<Technique>>> = BTreeMap::new();
         for (_, check) in self.checks().filter(|(_, check)| check.check.needs_scene()) {
-            let techniques = scenes.entry(&check.scene).or_default().entry(check.view()).or_default();
+            let views = scenes.entry(&check.scene).or_default();
+            if check.check.draws_scenes() {
+                continue;
+            }
+            let techniques = views.entry(check.view()).or_default();
             for technique in check.techniques() {
                 if !techniques.contains(&technique) {
                     techniques.push(technique);
