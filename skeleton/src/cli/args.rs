@@ -143,6 +143,8 @@ Examples:
       Check the geometry.
   arty scenes/cornell_box.yml --time=20 --reference=references/pictures/cornell_box.exr
       Also save the error over time, as cornell_box.errors.csv.
+  arty import room.glb
+      Convert a glTF file, such as a Blender export, to room.yml with meshes, materials and textures.
   arty scenes/cornell_box.yml --samples=100000 --tev
       Watch the image converge in tev. Ctrl-C stops and saves the image; Ctrl-C twice quits immediately.
 

@@ -9,11 +9,13 @@
 //! | `output` | image files |
 //! | `errors` | the error against a reference |
 //! | `inspect` | statistics of a scene |
+//! | `import` | starting the program that converts glTF files |
 //! | `exit` | exit status and failures |
 
 mod args;
 mod errors;
 mod exit;
+mod import;
 mod inspect;
 mod interrupt;
 mod live;
@@ -77,6 +79,9 @@ impl DebugView {
 /// anything is rendered; 3 for an internal error or a panic of the algorithm; 130 after an interruption (the image is
 /// saved with the samples rendered so far).
 pub fn run(make: impl FnOnce(Algorithm, &Scene) -> Box<dyn Integrator>) -> ExitCode {
+    if let Some(arguments) = import::requested(std::env::args_os()) {
+        return import::run(arguments);
+    }
     let args = match Args::read(std::env::args_os()) {
         Ok(args) => args,
         Err(answer) => return exit::answer(&answer),

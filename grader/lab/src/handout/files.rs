@@ -8,7 +8,7 @@ use verdict::error::{Error, Result};
 
 /// Files and folders that are included, without tests: some of these need the solution, and some show how to sample a
 /// light.
-const INCLUDED: [&str; 20] = [
+const INCLUDED: [&str; 21] = [
     ".gitattributes",
     ".gitignore",
     ".vscode",
@@ -17,6 +17,7 @@ const INCLUDED: [&str; 20] = [
     "rustfmt.toml",
     "skeleton/.cargo",
     "skeleton/src",
+    "skeleton/import/src",
     "skeleton/view/src",
     "grader/src",
     "grader/classroom/src",
@@ -52,11 +53,12 @@ const MOVED: [(&str, &str); 3] = [
 
 /// Cargo's files, which name packages that are not included.
 type Rewrite = fn(&str, Audience) -> std::result::Result<String, String>;
-const REWRITTEN: [(&str, Rewrite); 13] = [
+const REWRITTEN: [(&str, Rewrite); 14] = [
     ("Cargo.toml", manifests::workspace),
     ("Cargo.lock", manifests::lock),
     (".cargo/config.toml", manifests::aliases),
     ("skeleton/Cargo.toml", manifests::without_benches),
+    ("skeleton/import/Cargo.toml", manifests::without_benches),
     ("skeleton/view/Cargo.toml", manifests::without_benches),
     ("grader/Cargo.toml", manifests::without_tests),
     ("grader/classroom/Cargo.toml", manifests::without_tests),
