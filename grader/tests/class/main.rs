@@ -8,3 +8,4 @@ mod grading;
 mod marks;
 mod names;
 mod shards;
+mod slurm;
