@@ -16,17 +16,32 @@ impl Workspace {
     /// The checkout that the current folder is in, or, outside of any, the one that this program was built from.
     ///
     /// # Errors
-    /// If there is neither.
+    /// If there is neither, or if they are two: a tutor who stands in a student's checkout must not grade by its rubric,
+    /// nor build its framework.
     pub fn find() -> Result<Self> {
         let current =
             std::env::current_dir().map_err(|error| Error::Harness(format!("no current folder: {error}")))?;
-        Self::first([current.as_path(), Path::new(env!("CARGO_MANIFEST_DIR"))]).ok_or_else(|| {
-            Error::Input(
+        Self::only(&current, Path::new(env!("CARGO_MANIFEST_DIR")))
+    }
+
+    /// The only checkout that one of these folders is in.
+    fn only(current: &Path, built_from: &Path) -> Result<Self> {
+        let full = |root: &Path| root.canonicalize().unwrap_or_else(|_| root.to_owned());
+        match (Self::around(current), Self::around(built_from)) {
+            (None, None) => Err(Error::Input(
                 "the current folder is not in a checkout of arty (no skeleton/ and scenes/): name one with \
                  --workspace=DIR"
                     .into(),
-            )
-        })
+            )),
+            (Some(here), Some(other)) if full(&here.root) != full(&other.root) => {
+                let [here, other] = [here.root.display(), other.root.display()];
+                Err(Error::Input(format!(
+                    "the current folder is in the checkout {here}, but this program was built from {other}: say whose \
+                     rubric and framework count, with --workspace={here} or --workspace={other}"
+                )))
+            }
+            (Some(one), _) | (None, Some(one)) => Ok(one),
+        }
     }
 
     /// The checkout that a folder is in.
@@ -35,16 +50,15 @@ impl Workspace {
     /// If it is in none.
     pub fn open(folder: &Path) -> Result<Self> {
         let full = folder.canonicalize().map_err(|error| Error::file(folder, error))?;
-        Self::first([full.as_path()])
+        Self::around(&full)
             .ok_or_else(|| Error::file(folder, "this is not a checkout of arty (no skeleton/ and scenes/)"))
     }
 
-    /// The first of these folders, each followed by its parents, that is a checkout.
-    fn first<'a>(folders: impl IntoIterator<Item = &'a Path>) -> Option<Self> {
+    /// The checkout that a folder is in: the folder itself, or the nearest of its parents that is one.
+    fn around(folder: &Path) -> Option<Self> {
         let is_checkout =
             |folder: &&Path| folder.join("skeleton/Cargo.toml").is_file() && folder.join("scenes").is_dir();
-        let root = folders.into_iter().flat_map(Path::ancestors).find(is_checkout)?;
-        Some(Self { root: root.to_owned() })
+        Some(Self { root: folder.ancestors().find(is_checkout)?.to_owned() })
     }
 
     /// Top folder of the checkout.
@@ -116,16 +130,21 @@ mod tests {
     }
 
     #[test]
-    fn the_checkout_of_the_current_folder_comes_before_the_one_that_the_program_was_built_from() {
+    fn one_checkout_is_found_from_inside_or_by_the_program_and_of_two_none_is_guessed() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let [here, built_from] = ["here", "built-from"].map(|name| checkout(&folder.path().join(name)));
-        let root = |current: &Path| {
-            let found = Workspace::first([current, &built_from.join("scenes")]);
-            found.expect("one of them is a checkout").root
-        };
-        assert_eq!(root(&here.join("scenes/extreme")), here);
-        assert_eq!(root(folder.path()), built_from);
-        assert!(Workspace::first([folder.path()]).is_none());
+        let root = |current: &Path, program: &Path| Workspace::only(current, program).map(|found| found.root);
+        let inside = here.join("scenes/extreme");
+        assert_eq!(root(&inside, &here).expect("it is the same"), here);
+        assert_eq!(root(&inside, folder.path()).expect("there is one"), here);
+        assert_eq!(root(folder.path(), &built_from.join("scenes")).expect("there is one"), built_from);
+        assert!(root(folder.path(), folder.path()).is_err(), "there is none");
+        let message = root(&inside, &built_from).expect_err("there are two").to_string();
+        for expected in
+            [format!("--workspace={}", here.display()), format!("--workspace={}", built_from.display())]
+        {
+            assert!(message.contains(&expected), "{message}");
+        }
     }
 
     #[test]

@@ -40,7 +40,8 @@ use verdict::text::message;
 struct Arguments {
     #[command(subcommand)]
     command: Command,
-    /// Checkout to work in [default: the one that contains the current folder, else the one the grader was built from]
+    /// Checkout to work in [default: the one that contains the current folder, else the one the grader was built from; if
+    /// they differ, name one]
     #[arg(long, global = true, value_name = "DIR")]
     workspace: Option<PathBuf>,
 }

@@ -9,3 +9,5 @@ mod marks;
 mod names;
 mod shards;
 mod slurm;
+mod spreadsheets;
+mod templates;

@@ -15,7 +15,10 @@ fn a_team_has_one_submission_and_two_different_ones_are_a_question() {
         "roster.csv",
         "number,Full name,team\n123457,Zoe Y,\n1,Ann Lee,Group 123457\n2,Bob Ray,123457\n3,Cem Öz,red\n4,Dee Poe,red\n5,Eve Fox,\n",
     );
-    course.run(&["--roster=roster.csv", "--out=out"]);
+    let told = course.run(&["--roster=roster.csv", "--out=out"]);
+    assert!(told.contains("2 graded now, 0 unchanged"), "a team's submission is graded once: {told}");
+    let record = |key: &str| course.read(&format!("out/submissions/{key}/record.json"));
+    assert_eq!(record("1"), record("2"));
     let results = course.results("out");
     let code = |key: &str| results[key].1.as_str();
     assert_eq!([results["1"].2, results["2"].2, results["5"].2], [Some(10.0); 3]);
@@ -23,6 +26,10 @@ fn a_team_has_one_submission_and_two_different_ones_are_a_question() {
     assert_eq!([code("3"), code("4")], ["several-candidates"; 2]);
     let similar = course.read("out/similar.txt");
     assert!(similar.contains("layout: 1, 5"), "a team did not copy from itself: {similar}");
+    let told = course.run(&["--roster=roster.csv", "--out=out", "--resume"]);
+    assert!(told.contains("0 graded now, 3 unchanged"), "{told}");
+    let told = course.run(&["--roster=roster.csv", "--out=out", "--regrade"]);
+    assert!(told.contains("2 graded now, 0 unchanged"), "{told}");
 }
 
 #[test]

@@ -21,8 +21,7 @@ const SHARDS: [(&str, &str); 2] =
     [("many/shard-1-of-2", "many/slurm-1.log"), ("many/shard-2-of-2", "many/slurm-2.log")];
 
 /// Submits the job in the arguments, and waits until no job is left.
-const SUBMIT_AND_WAIT: &str =
-    "\"$@\"; for _ in $(seq 1000); do queue=$(squeue -h) && [ -z \"$queue\" ] && exit; sleep 0.5; done; exit 1";
+const SUBMIT_AND_WAIT: &str = "\"$@\"; for _ in $(seq 1000); do queue=$(squeue -h) && [ -z \"$queue\" ] && exit; sleep 0.5; done; exit 1";
 
 /// Keys of students, the same number for each of two shards.
 fn students() -> Vec<String> {

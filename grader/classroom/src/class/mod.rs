@@ -26,6 +26,7 @@ mod progress;
 pub mod record;
 pub mod roster;
 mod run;
+mod settle;
 pub mod shard;
 pub mod similar;
 pub mod systems;

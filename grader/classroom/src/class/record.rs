@@ -224,6 +224,20 @@ impl ResultDir {
         output::write_json(&self.record(), record)
     }
 
+    /// Copies report and images of the same submission from another folder, and saves the record after them.
+    pub(super) fn save_copy(&self, record: &Record, from: &Self) -> Result<()> {
+        output::create_folder(&self.0)?;
+        self.remove_leftovers();
+        for file in [Self::report, Self::pictures, Self::thumbnail] {
+            match std::fs::read(file(from)) {
+                Ok(bytes) => output::write_bytes(&file(self), bytes)?,
+                Err(error) if error.kind() == std::io::ErrorKind::NotFound => output::remove(&file(self))?,
+                Err(error) => return Err(Error::file(&file(from), error)),
+            }
+        }
+        output::write_json(&self.record(), record)
+    }
+
     /// Removes incomplete files of a grader that was killed.
     fn remove_leftovers(&self) {
         for entry in std::fs::read_dir(&self.0).into_iter().flatten().flatten() {

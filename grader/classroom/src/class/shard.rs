@@ -1,7 +1,8 @@
 //! A class on several machines: each grades a shard of the students, and the results are merged.
 //!
-//! A student's shard depends on nothing but the student's key, so that a late submission moves nobody. Each machine reads
-//! the whole class and grades its own part into a folder of its own.
+//! A student's shard depends on nothing but the student's key, or the team's name, so that a late submission moves nobody
+//! and a team's submission is graded once. Each machine reads the whole class and grades its own part into a folder of
+//! its own.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -10,6 +11,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use super::gradebook::Row;
+use super::identity::team_key;
 use super::similar::Fingerprint;
 use super::{Class, Outcome};
 use crate::policy::Policy;
@@ -53,7 +55,7 @@ impl std::fmt::Display for Shard {
 }
 
 impl Shard {
-    /// True if a member of the class is in this shard.
+    /// True if the student with this key, or the team with this name, is in this shard.
     pub fn contains(self, key: &str) -> bool {
         let mut first = [0; 8];
         first.copy_from_slice(&blake3::hash(key.as_bytes()).as_bytes()[..8]);
@@ -89,7 +91,10 @@ pub fn folders(out: &Path) -> Result<Vec<PathBuf>> {
 impl Class {
     /// Leaves the members of one shard.
     pub fn keep(&mut self, shard: Shard) {
-        self.members.retain(|member| shard.contains(&member.key));
+        self.members.retain(|member| {
+            let is_alone = member.team.is_empty();
+            if is_alone { shard.contains(&member.key) } else { shard.contains(&team_key(&member.team)) }
+        });
     }
 }
 

@@ -27,7 +27,9 @@ pub(super) fn xml(report: &Report) -> Result<String, quick_junit::SerializeError
     }
     let skipped = document.skipped;
     // Jenkins' schema (junit-10.xsd of its xUnit plugin) has this attribute in suites, but not in their parent.
-    document.to_string().map(|text| text.replacen(&format!(" skipped=\"{skipped}\""), "", 1))
+    let text = document.to_string()?.replacen(&format!(" skipped=\"{skipped}\""), "", 1);
+    // quick-junit removes the other characters that XML does not allow.
+    Ok(text.replace(['\u{fffe}', '\u{ffff}'], ""))
 }
 
 fn suite(report: &Report, task: &TaskResult) -> TestSuite {
@@ -130,8 +132,10 @@ mod tests {
             if message.as_str().contains("<script>")),
             "{failed:?}"
         );
-        // XML allows no control characters but three, not even escaped.
-        assert!(!text.chars().any(|c| c.is_control() && !"\n\r\t".contains(c)), "{text:?}");
+        // XML allows no control characters but three, and no noncharacters, not even escaped.
+        let is_refused =
+            |c: char| (c.is_control() && !"\n\r\t".contains(c)) || "\u{fffe}\u{ffff}".contains(c);
+        assert!(!text.chars().any(is_refused), "{text:?}");
         let points = &read.test_suites[0].properties[0];
         assert_eq!((points.name.as_str(), points.value.as_str()), ("points", "12.5"));
     }
