@@ -1,9 +1,11 @@
 //! The files of a graded class: gradebook, data, page, and the tables of course systems.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use classroom::class::gradebook::{Row, State, save_class, save_gradebook};
-use classroom::class::page::ClassPage;
+use classroom::class::page::{ClassPage, save_leaderboard};
+use classroom::class::similar::Archive;
 use classroom::class::{Outcome, feedback, similar, systems};
 use classroom::policy::Standing;
 use present::streams::{note, print_line};
@@ -48,13 +50,19 @@ impl Tables<'_> {
     /// Prints a summary, and writes gradebook.csv, class.json, similar.txt, the page, and the tables of course systems.
     pub(super) fn save(&self, outcome: &Outcome, with_changes: bool) -> Result<()> {
         let (rubric, out) = (self.rubric, self.out);
-        let similar = similar::groups(&outcome.fingerprints);
+        let similar = similar::groups(&outcome.fingerprints, &BTreeMap::new());
         print(outcome, similar.len(), with_changes)?;
         self.save_gradebook(&outcome.rows.iter().collect::<Vec<_>>())?;
         let automatic_max = rubric.tasks.iter().filter(|task| !task.manual).map(|task| task.points).sum();
         let assignment = (self.assignment, automatic_max);
         save_class(&out.join("class.json"), assignment, &outcome.provenance, &outcome.rows, &similar)?;
         output::write_bytes(&out.join("similar.txt"), similar::describe(&similar))?;
+        Archive::new(self.assignment, outcome.fingerprints.clone()).save(out)?;
+        if outcome.leaderboard {
+            let file = out.join("leaderboard.html");
+            save_leaderboard(&file, &outcome.rows, out)?;
+            note(format_args!("leaderboard: {}", file.display()));
+        }
         note(format_args!("gradebook: {}", out.join("gradebook.csv").display()));
         if self.page {
             let (rows, changes) = (&outcome.rows, &outcome.changes);

@@ -22,6 +22,7 @@ mod plan;
 mod policy;
 mod replay;
 mod seed;
+mod similar;
 mod watch;
 
 use std::path::PathBuf;
@@ -62,6 +63,7 @@ enum Command {
     Merge(merge::Arguments),
     Plan(plan::Arguments),
     Replay(replay::Arguments),
+    Similar(similar::Arguments),
     #[command(name = ::intake::COMMAND, hide = true)]
     Intake(intake::Arguments),
 }
@@ -95,13 +97,14 @@ impl Arguments {
             Command::Merge(arguments) => merge::run(arguments, &workspace()?),
             Command::Plan(arguments) => plan::run(arguments, &workspace()?),
             Command::Replay(arguments) => replay::run(arguments, &workspace()?),
+            Command::Similar(arguments) => similar::run(arguments, &workspace()?),
             Command::Intake(arguments) => intake::run(arguments),
         }
     }
 }
 
 /// Commands that `--help` shows only in a checkout with the solution.
-const STAFF_COMMANDS: [&str; 5] = ["class", "mark", "plan", "export", "converge"];
+const STAFF_COMMANDS: [&str; 7] = ["class", "mark", "merge", "plan", "export", "converge", "similar"];
 
 /// Options of `grade` that `--help` shows only there.
 const STAFF_OPTIONS: [&str; 4] = ["missing_is_zero", "received_at", "course", "student"];

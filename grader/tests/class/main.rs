@@ -8,6 +8,7 @@ mod grading;
 mod marks;
 mod names;
 mod shards;
+mod similar;
 mod slurm;
 mod spreadsheets;
 mod templates;

@@ -39,6 +39,7 @@ pub fn merge(folders: &[PathBuf], out: &Path, rules: Option<&Rules>) -> Result<O
         unchanged: first.unchanged,
         provenance: first.provenance,
         weakest_sandbox: first.weakest_sandbox,
+        leaderboard: first.leaderboard,
     };
     for file in files {
         outcome.rows.extend(file.rows);

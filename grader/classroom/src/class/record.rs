@@ -186,6 +186,25 @@ impl ResultDir {
         pictures_beside(&self.report())
     }
 
+    /// Path of the source that was graded.
+    pub(super) fn source(&self) -> PathBuf {
+        self.0.join("source.rs")
+    }
+
+    /// Keeps the source beside its results, to be compared with others; removes an earlier one if there is none.
+    pub(super) fn keep_source(&self, source: Option<&str>) -> Result<()> {
+        match source {
+            None => output::remove(&self.source()),
+            Some(source) if std::fs::read(self.source()).is_ok_and(|kept| kept == source.as_bytes()) => {
+                Ok(())
+            }
+            Some(source) => {
+                output::create_folder(&self.0)?;
+                output::write_bytes(&self.source(), source)
+            }
+        }
+    }
+
     /// Path of the image for the page of the class.
     pub(super) fn thumbnail(&self) -> PathBuf {
         self.0.join("thumbnail.png")

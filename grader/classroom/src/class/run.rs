@@ -68,6 +68,8 @@ pub struct Outcome {
     pub inputs: String,
     /// Weakest sandbox of all submissions; `None` if none was run.
     pub weakest_sandbox: Option<Level>,
+    /// True if the course wants a leaderboard.
+    pub leaderboard: bool,
 }
 
 /// Grades a class. `save` is called every few seconds with the rows so far, so that there is always a current table.
@@ -113,6 +115,7 @@ pub fn run(
         provenance: shared.grader.provenance().clone(),
         inputs: shared.base.to_hex().to_string(),
         weakest_sandbox: None,
+        leaderboard: policy.is_some_and(Policy::has_leaderboard),
     };
     std::thread::scope(|scope| -> Result<()> {
         let (sender, results) = channel();

@@ -159,6 +159,7 @@ impl Shared<'_> {
     ) -> Result<Option<Settled>> {
         let Some(Taken { intake, receipt, lateness }) = self.take(member)? else { return Ok(None) };
         let source = intake.outcome.as_ref().map_or("", |submission| submission.source.as_str());
+        result_dir.keep_source(intake.outcome.is_ok().then_some(source))?;
         let key = self.key(source);
         let fingerprint = intake.outcome.is_ok().then(|| self.starter.fingerprint(source));
         let mut record = Record::new(key, &intake, &self.tasks, None);

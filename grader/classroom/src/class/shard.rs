@@ -21,7 +21,7 @@ use verdict::report::Provenance;
 use verdict::sandbox::Level;
 
 /// Version of the format of `shard.json`.
-const SCHEMA: &str = "arty-shard/1";
+const SCHEMA: &str = "arty-shard/2";
 
 /// A part of a class, written `index/count`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -126,6 +126,8 @@ pub struct ShardFile {
     pub unchanged: usize,
     /// Weakest sandbox of all its submissions.
     pub weakest_sandbox: Option<Level>,
+    /// True if the course wants a leaderboard.
+    pub leaderboard: bool,
 }
 
 /// What of a class decides about points besides the submissions; to be computed before [`Class::keep`].
@@ -166,6 +168,7 @@ impl ShardFile {
             graded: outcome.graded,
             unchanged: outcome.unchanged,
             weakest_sandbox: outcome.weakest_sandbox,
+            leaderboard: outcome.leaderboard,
         }
     }
 

@@ -5,8 +5,14 @@
 //! two files share leaves at least one common fingerprint. Fingerprints of the starting file are ignored. Similar files
 //! prove nothing: the exercise is small, and there are few good solutions.
 
+mod archive;
+pub mod export;
+pub mod page;
+mod passages;
+
 use std::collections::{BTreeMap, BTreeSet};
 
+pub use archive::{Archive, Earlier};
 use serde::{Deserialize, Serialize};
 
 use super::tokens::{names, tokens};
@@ -41,13 +47,13 @@ impl Starter {
     /// Computes them from its text.
     pub fn new(text: &str) -> Self {
         let vocabulary = names(text);
-        let grams = grams(&tokens(text, &vocabulary)).into_iter().collect();
+        let grams = grams(&hashes(text, &vocabulary)).into_iter().collect();
         Self { vocabulary, grams }
     }
 
     /// Computes the fingerprint of a source.
     pub fn fingerprint(&self, source: &str) -> Fingerprint {
-        let tokens = tokens(source, &self.vocabulary);
+        let tokens = hashes(source, &self.vocabulary);
         let grams = grams(&tokens);
         let mut pieces: Vec<u64> =
             grams.windows(WINDOW).filter_map(|window| window.iter().min().copied()).collect();
@@ -56,6 +62,10 @@ impl Starter {
         pieces.dedup();
         Fingerprint { whole: combine(&tokens), pieces }
     }
+}
+
+fn hashes(source: &str, vocabulary: &BTreeSet<String>) -> Vec<u64> {
+    tokens(source, vocabulary).into_iter().map(|token| token.hash).collect()
 }
 
 fn grams(tokens: &[u64]) -> Vec<u64> {
@@ -104,31 +114,41 @@ pub struct Group {
     pub pairs: Vec<(String, String, f64)>,
 }
 
-/// All groups, identical ones first. Only the first of identical submissions is compared with others.
-pub fn groups(submissions: &BTreeMap<String, Fingerprint>) -> Vec<Group> {
-    let mut same: BTreeMap<u64, Vec<&String>> = BTreeMap::new();
-    let comparable = submissions.iter().filter(|(_, print)| print.pieces.len() >= FEWEST);
-    for (student, print) in comparable {
-        same.entry(print.whole).or_default().push(student);
+/// All groups with a submission of this year, identical ones first. Those of `earlier` years are compared with these, and
+/// not with each other. Only the first of identical submissions is compared with others.
+pub fn groups(
+    submissions: &BTreeMap<String, Fingerprint>,
+    earlier: &BTreeMap<String, Fingerprint>,
+) -> Vec<Group> {
+    let mut same: BTreeMap<u64, Same<'_>> = BTreeMap::new();
+    for (of_this_year, prints) in [(true, submissions), (false, earlier)] {
+        for (student, print) in prints.iter().filter(|(_, print)| print.pieces.len() >= FEWEST) {
+            let entry = same.entry(print.whole).or_insert(Same { print, of_this_year, students: Vec::new() });
+            entry.students.push(student);
+        }
     }
     let mut groups: Vec<Group> = same
         .values()
-        .filter(|students| students.len() > 1)
-        .map(|students| Group {
+        .filter(|same| same.of_this_year && same.students.len() > 1)
+        .map(|same| Group {
             identical: true,
-            students: students.iter().map(|&student| student.clone()).collect(),
+            students: same.students.iter().map(|&student| student.clone()).collect(),
             pairs: Vec::new(),
         })
         .collect();
-    let first: Vec<&String> = same.values().map(|students| students[0]).collect();
+    let different: Vec<&Same<'_>> = same.values().collect();
     let mut near: Vec<Group> = Vec::new();
-    for (index, one) in first.iter().enumerate() {
-        for other in &first[index + 1..] {
-            let similarity = submissions[*one].similarity(&submissions[*other]);
+    for (index, one) in different.iter().enumerate() {
+        for other in &different[index + 1..] {
+            if !(one.of_this_year || other.of_this_year) {
+                continue;
+            }
+            let similarity = one.print.similarity(other.print);
             if similarity >= THRESHOLD {
                 let rounded = (similarity * 1000.0).round() / 1000.0;
+                let [one, other] = [one, other].map(|same| same.students[0]);
                 let (one, other) = (one.min(other), one.max(other));
-                join(&mut near, ((*one).clone(), (*other).clone(), rounded));
+                join(&mut near, (one.clone(), other.clone(), rounded));
             }
         }
     }
@@ -143,6 +163,14 @@ pub fn groups(submissions: &BTreeMap<String, Fingerprint>) -> Vec<Group> {
     near.sort_by(|one, other| one.students.cmp(&other.students));
     groups.append(&mut near);
     groups
+}
+
+/// Submissions that differ in nothing but names, comments and layout.
+struct Same<'a> {
+    print: &'a Fingerprint,
+    /// True if one of them is of this year; it comes first.
+    of_this_year: bool,
+    students: Vec<&'a String>,
 }
 
 /// Adds a pair, and merges all groups that contain one of its students.
@@ -219,8 +247,10 @@ mod tests {
         sources.insert("small-change".to_owned(), changed);
         let prints: BTreeMap<String, Fingerprint> =
             sources.iter().map(|(name, source)| (name.clone(), starter.fingerprint(source))).collect();
-        let alike: Vec<(bool, Vec<String>)> =
-            groups(&prints).into_iter().map(|group| (group.identical, group.students)).collect();
+        let alike: Vec<(bool, Vec<String>)> = groups(&prints, &BTreeMap::new())
+            .into_iter()
+            .map(|group| (group.identical, group.students))
+            .collect();
         let group = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect::<Vec<String>>();
         assert_eq!(
             alike,
@@ -232,6 +262,18 @@ mod tests {
                 assert!(similarity < 0.05, "{style} {other}: {similarity}");
             }
         }
+    }
+
+    #[test]
+    fn earlier_years_are_compared_with_this_one_and_not_with_each_other() {
+        let print = |whole: u64, first: u64| Fingerprint { whole, pieces: (first..first + 20).collect() };
+        let this = BTreeMap::from([("ann".to_owned(), print(1, 0)), ("bob".to_owned(), print(2, 100))]);
+        let earlier = [("2024/x", 3, 3), ("2024/y", 4, 200), ("2025/y", 4, 200), ("2025/b", 2, 100)];
+        let earlier = earlier.map(|(key, whole, first)| (key.to_owned(), print(whole, first))).into();
+        let found: Vec<_> =
+            groups(&this, &earlier).into_iter().map(|group| group.students.join(" ")).collect();
+        assert_eq!(found, ["bob 2025/b", "2024/x ann"]);
+        assert_eq!(groups(&earlier, &this).len(), 3, "in their own year, they are a group");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
 
 /// A token. Values of literals are dropped.
 enum Token {
@@ -11,45 +11,68 @@ enum Token {
     Literal,
 }
 
-/// Hashes of the tokens of a source. All names outside of the vocabulary have the same hash, and so have all literals;
+/// A token as it is compared.
+pub(super) struct HashedToken {
+    /// Hash of the token.
+    pub(super) hash: u64,
+    /// Line on which it begins, counted from 0.
+    pub(super) line: usize,
+}
+
+/// The tokens of a source. All names outside of the vocabulary have the same hash, and so have all literals;
 /// comments are skipped. A source that cannot be tokenized as Rust is split into words.
-pub(super) fn tokens(source: &str, vocabulary: &BTreeSet<String>) -> Vec<u64> {
-    let all = flatten(source).into_iter().map(|token| match token {
+pub(super) fn tokens(source: &str, vocabulary: &BTreeSet<String>) -> Vec<HashedToken> {
+    let hash = |token| match token {
         Token::Name(name) if is_keyword(&name) || vocabulary.contains(&name) => hash(&name),
         Token::Name(_) => hash("a name"),
         Token::Sign(sign) => hash(sign.encode_utf8(&mut [0; 4])),
         Token::Literal => hash("a literal"),
-    });
-    all.collect()
+    };
+    flatten(source).into_iter().map(|(token, line)| HashedToken { hash: hash(token), line }).collect()
 }
 
 /// All names in a source, except those in comments.
 pub(super) fn names(source: &str) -> BTreeSet<String> {
-    let names = flatten(source).into_iter().filter_map(|token| match token {
+    let names = flatten(source).into_iter().filter_map(|(token, _)| match token {
         Token::Name(name) => Some(name),
         Token::Sign(_) | Token::Literal => None,
     });
     names.collect()
 }
 
-fn flatten(source: &str) -> Vec<Token> {
-    let Ok(stream) = source.parse::<TokenStream>() else {
-        let words = source.split(|c: char| !(c.is_alphanumeric() || c == '_'));
-        return words.filter(|word| !word.is_empty()).map(|word| Token::Name(word.to_owned())).collect();
+/// All tokens, each with its line, counted from 0.
+fn flatten(source: &str) -> Vec<(Token, usize)> {
+    let tokens = source.parse::<TokenStream>().map_or_else(|_| words(source), flatten_stream);
+    // Else the texts of all sources would stay in memory.
+    proc_macro2::extra::invalidate_current_thread_spans();
+    tokens
+}
+
+/// The words of what is not Rust.
+fn words(source: &str) -> Vec<(Token, usize)> {
+    let of_line = |(line, text): (usize, &str)| {
+        let words = text.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+        let words = words.filter(|word| !word.is_empty());
+        words.map(|word| (Token::Name(word.to_owned()), line)).collect::<Vec<_>>()
     };
+    source.lines().enumerate().flat_map(of_line).collect()
+}
+
+fn flatten_stream(stream: TokenStream) -> Vec<(Token, usize)> {
+    let line = |span: Span| span.start().line.saturating_sub(1);
     let mut tokens = Vec::new();
     // Not by recursion: brackets can be nested as deep as a file is long.
     let mut open = vec![(stream.into_iter(), None)];
     while let Some((stream, end)) = open.last_mut() {
         let Some(token) = stream.next() else {
-            tokens.extend(end.map(Token::Sign));
+            tokens.extend(end.take());
             open.pop();
             continue;
         };
         match token {
             TokenTree::Group(group) if is_documentation(&group.stream()) => {
                 // `///` and `//!` come as attributes, whose signs are there already.
-                while let Some(Token::Sign('#' | '!')) = tokens.last() {
+                while let Some((Token::Sign('#' | '!'), _)) = tokens.last() {
                     tokens.pop();
                 }
             }
@@ -60,12 +83,13 @@ fn flatten(source: &str) -> Vec<Token> {
                     Delimiter::Bracket => (Some('['), Some(']')),
                     Delimiter::None => (None, None),
                 };
-                tokens.extend(start.map(Token::Sign));
+                tokens.extend(start.map(|sign| (Token::Sign(sign), line(group.span_open()))));
+                let end = end.map(|sign| (Token::Sign(sign), line(group.span_close())));
                 open.push((group.stream().into_iter(), end));
             }
-            TokenTree::Ident(ident) => tokens.push(Token::Name(ident.to_string())),
-            TokenTree::Punct(punct) => tokens.push(Token::Sign(punct.as_char())),
-            TokenTree::Literal(_) => tokens.push(Token::Literal),
+            TokenTree::Ident(ident) => tokens.push((Token::Name(ident.to_string()), line(ident.span()))),
+            TokenTree::Punct(punct) => tokens.push((Token::Sign(punct.as_char()), line(punct.span()))),
+            TokenTree::Literal(literal) => tokens.push((Token::Literal, line(literal.span()))),
         }
     }
     tokens

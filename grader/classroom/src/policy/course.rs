@@ -16,6 +16,9 @@ pub struct Course {
     /// Later deadlines of individual students.
     #[serde(default)]
     pub extensions: Vec<Extension>,
+    /// True to write a leaderboard of efficiency without names.
+    #[serde(default)]
+    pub leaderboard: bool,
 }
 
 /// A later deadline for one student.

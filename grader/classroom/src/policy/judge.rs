@@ -18,6 +18,7 @@ pub struct Policy {
     deadline: Option<Timestamp>,
     /// Deadline and reason by student, in lower case.
     extensions: BTreeMap<String, (Timestamp, String)>,
+    leaderboard: bool,
 }
 
 /// Standing of a submission relative to deadline, grace period and extension.
@@ -68,7 +69,12 @@ impl Policy {
             }
         }
         let deadline = course.deadline.as_ref().map(deadline).transpose()?;
-        Ok(Self { rules: rules.clone(), deadline, extensions, zone })
+        Ok(Self { rules: rules.clone(), deadline, extensions, zone, leaderboard: course.leaderboard })
+    }
+
+    /// True if the course wants a leaderboard.
+    pub fn has_leaderboard(&self) -> bool {
+        self.leaderboard
     }
 
     /// Time zone of times without an offset.
@@ -187,7 +193,8 @@ mod tests {
             until: "2026-05-23 23:59".into(),
             reason: "certificate".into(),
         };
-        let course = Course { deadline: Some(deadline.into()), extensions: vec![extension] };
+        let course =
+            Course { deadline: Some(deadline.into()), extensions: vec![extension], ..Course::default() };
         Policy::new(&rules, &course).expect("it is sound")
     }
 
@@ -323,7 +330,7 @@ mod tests {
     #[test]
     fn what_cannot_be_understood_is_an_error() {
         let rules = |zone: &str| Rules { time_zone: zone.into(), ..SHEET };
-        let until = |deadline: &str| Course { deadline: Some(deadline.into()), extensions: Vec::new() };
+        let until = |deadline: &str| Course { deadline: Some(deadline.into()), ..Course::default() };
         for (zone, deadline, expected) in [
             ("Berlin", "2026-05-21 23:59", "unknown time zone"),
             ("Europe/Berlin", "21.5.2026", "is no time"),

@@ -6,6 +6,7 @@
 //! [`crate::class::Member::key`]).
 
 mod digest;
+mod leaderboard;
 mod sections;
 mod table;
 
@@ -19,6 +20,7 @@ use maud::html;
 use super::gradebook::Row;
 use super::record::ResultDir;
 use digest::Digests;
+pub use leaderboard::save_leaderboard;
 use present::page::document;
 use verdict::error::Result;
 use verdict::output;

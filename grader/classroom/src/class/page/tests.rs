@@ -128,3 +128,31 @@ fn thumbnails_are_embedded_and_the_fewest_points_come_first() {
     let place = |base64: &str| text.find(&format!("data:image/png;base64,{base64}")).expect("it is there");
     assert!(place("Ym9i") < place("YW5u"));
 }
+
+#[test]
+fn the_leaderboard_is_sorted_and_names_nobody() {
+    let out = tempfile::tempdir().expect("a temporary folder");
+    let mut rows = Vec::new();
+    for (key, work, source) in
+        [("ann", "0.5", "aaaaaaaa1"), ("bob", "0.25", "bbbbbbbb2"), ("cem", "null", "c")]
+    {
+        record(out.path(), key, None, &[]);
+        let file = out.path().join("submissions").join(key).join("record.json");
+        let text = std::fs::read_to_string(&file).expect("it is there");
+        std::fs::write(&file, text.replace("\"work\":0.5", &format!("\"work\":{work}")))
+            .expect("it can be written");
+        rows.push(Row { source: source.to_owned(), ..row(key, "Somebody", 9.0) });
+    }
+    // A member of the same team.
+    rows.push(Row { key: "ann".to_owned(), ..rows[0].clone() });
+    let path = out.path().join("leaderboard.html");
+    save_leaderboard(&path, &rows, out.path()).expect("it can be written");
+    let text = std::fs::read_to_string(path).expect("it is there");
+    let (first, second) = (text.find("bbbbbbbb</code>"), text.find("aaaaaaaa</code>"));
+    assert!(first.is_some() && first < second, "{text}");
+    assert!(text.contains(">2.00<") && text.contains(">1.00<"), "{text}");
+    assert_eq!(text.matches("<code>").count(), 2, "{text}");
+    for name in ["Somebody", "ann<", "bob<", "cem"] {
+        assert!(!text.contains(name), "{name}");
+    }
+}
