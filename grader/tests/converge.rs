@@ -3,7 +3,8 @@
 //! Times differ from run to run, and with them the numbers of samples; what is asked for here holds with wide margins.
 
 use arty::integrator::Technique;
-use harness::build::{Framework, SubmissionProgram, compile};
+use harness::assignment::Assignment;
+use harness::build::{SubmissionProgram, compile};
 use harness::workspace::Workspace;
 use judge::convergence::{MeasuredProgram, Options, brief, crops, measure};
 use present::convergence::{Axis, save_csv, svg};
@@ -13,12 +14,16 @@ fn workspace() -> Workspace {
     Workspace::find().expect("the tests run inside the checkout")
 }
 
+fn assignment() -> Assignment {
+    Assignment::open(&workspace(), "05-nee-mis").expect("it is sound")
+}
+
 fn solution() -> String {
-    std::fs::read_to_string(workspace().solution_file()).expect("the solution is there")
+    assignment().solution().expect("the solution is there")
 }
 
 fn program(source: &str) -> SubmissionProgram {
-    let framework = Framework::build(&workspace()).expect("the framework builds");
+    let framework = assignment().framework(&workspace()).expect("the framework builds");
     compile(&framework, source, &harness::sandbox::Limits::default())
         .expect("the harness works")
         .expect("it compiles")
@@ -92,7 +97,8 @@ fn a_program_that_panics_has_no_curve_and_stops_nobody_else() {
 
 #[test]
 fn without_a_solution_the_comparison_is_left_out_with_the_reason() {
-    let convergence = brief(&workspace(), &program(&solution()), None, 1).expect("the harness works");
+    let convergence =
+        brief(&workspace(), &assignment().rubric, &program(&solution()), None, 1).expect("the harness works");
     assert!(convergence.left_out[0].why.contains("does not have the solution"), "{:?}", convergence.left_out);
     for panel in &convergence.panels {
         let roles: Vec<Role> = panel.curves.iter().map(|curve| curve.role).collect();

@@ -6,7 +6,8 @@ use std::time::{Duration, Instant};
 
 use arty::integrator::{Settings, Technique};
 use arty::scene::SceneDescription;
-use harness::build::{Framework, SubmissionProgram, compile};
+use harness::assignment::Assignment;
+use harness::build::{SubmissionProgram, compile};
 use harness::host_process::HostProcess;
 use harness::sandbox::{Level, Limits, Machine};
 use harness::workspace::Workspace;
@@ -75,6 +76,14 @@ fn workspace() -> Workspace {
     Workspace::find().expect("the tests run inside the checkout")
 }
 
+fn assignment(workspace: &Workspace) -> Assignment {
+    Assignment::open(workspace, ASSIGNMENT).expect("its rubric is sound")
+}
+
+fn solution(workspace: &Workspace) -> Submission {
+    Submission::load_trusted(&assignment(workspace).solution_file()).expect("the solution is there")
+}
+
 fn grade_source(workspace: &Workspace, source: String, check: &str) -> Report {
     let submission = Submission { path: PathBuf::from("render_pt.rs"), source };
     let options = Options {
@@ -95,8 +104,9 @@ struct Honest {
 
 impl Honest {
     fn new(workspace: &Workspace) -> Self {
-        let framework = Framework::build(workspace).expect("the framework builds");
-        let source = std::fs::read_to_string(workspace.solution_file()).expect("the solution is there");
+        let assignment = assignment(workspace);
+        let framework = assignment.framework(workspace).expect("the framework builds");
+        let source = assignment.solution().expect("the solution is there");
         let limits = Limits { job_time: Duration::from_secs(30), ..Limits::default() };
         let program =
             compile(&framework, &source, &limits).expect("rustc runs").expect("the solution compiles");
@@ -239,7 +249,7 @@ fn the_corpus_and_its_index_are_about_the_same_files() {
 #[test]
 fn the_report_tells_how_the_submission_was_confined_and_what_it_reached_for() {
     let workspace = workspace();
-    let source = std::fs::read_to_string(workspace.solution_file()).expect("the solution is there");
+    let source = assignment(&workspace).solution().expect("the solution is there");
     let report = grade_source(&workspace, format!("{source}\nuse std::fs::File as _;\n"), CHECK);
     assert_eq!(report.checks[0].verdict, Verdict::Pass, "{:#?}", report.checks[0]);
     let sandbox = &report.sandbox;
@@ -254,14 +264,15 @@ fn a_source_of_megabytes_is_not_even_compiled() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("render_pt.rs");
     std::fs::write(&file, "// x\n".repeat(200_000)).expect("it can be written");
-    let error = intake::read(&file).expect_err("it is refused").to_string();
+    let wanted = intake::Wanted::new(&assignment(&workspace()).rubric.submission, "");
+    let error = intake::read(&file, &wanted).expect_err("it is refused").to_string();
     assert!(error.contains("too large"), "{error}");
 }
 
 #[test]
 fn without_a_sandbox_the_report_says_so() {
     let workspace = workspace();
-    let submission = intake::read(&workspace.solution_file()).expect("the solution is there");
+    let submission = solution(&workspace);
     let limits = Limits { sandbox: false, ..limits() };
     let only = vec![CHECK.to_owned()];
     let assignment = ASSIGNMENT.to_owned();
@@ -274,7 +285,7 @@ fn without_a_sandbox_the_report_says_so() {
 #[test]
 fn where_a_sandbox_is_asked_for_nothing_is_graded_without() {
     let workspace = workspace();
-    let submission = intake::read(&workspace.solution_file()).expect("the solution is there");
+    let submission = solution(&workspace);
     let limits = Limits { sandbox: false, min_level: Level::Medium, ..limits() };
     let options =
         Options { assignment: ASSIGNMENT.to_owned(), seed: 1, threads: 2, only: Vec::new(), limits };

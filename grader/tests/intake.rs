@@ -6,8 +6,13 @@ mod archives;
 use std::path::{Path, PathBuf};
 
 use archives::{Entry, SOURCE, gzip, long_name, overlapping, zip};
-use intake::{Intake, Reader, Refusal};
+use intake::{Intake, Reader, Refusal, Wanted};
 use verdict::error::Error;
+
+fn wanted() -> Wanted {
+    let [file_name, type_name, starter] = ["render_pt.rs", "PathTracer", ""].map(str::to_owned);
+    Wanted { file_name, type_name, starter }
+}
 
 fn apart() -> Reader {
     Reader::Apart(PathBuf::from(env!("CARGO_BIN_EXE_grader")))
@@ -36,8 +41,8 @@ fn a_process_of_its_own_reads_what_this_one_reads() {
         let path = folder.path().join(name);
         std::fs::write(&path, bytes).expect("it can be written");
         let paths = [path];
-        let here = Reader::Here.take(&paths, "", source).expect("it is there");
-        let there = apart().take(&paths, "", source).expect("it is there");
+        let here = Reader::Here.take(&paths, &wanted(), source).expect("it is there");
+        let there = apart().take(&paths, &wanted(), source).expect("it is there");
         assert_eq!((code(&here), code(&there)), (expected, expected), "{name}");
         assert_eq!(format!("{here:?}"), format!("{there:?}"), "{name}");
     }
@@ -66,11 +71,12 @@ fn whatever_happens_to_the_process_is_a_finding() {
         ("intake-failed", "echo {; exit 0"),
         ("intake-failed", "cat /dev/zero | head -c 100000000; exit 0"),
     ] {
-        let intake = impostor(folder.path(), script).take(&submission, "", None).expect("it can be started");
+        let intake =
+            impostor(folder.path(), script).take(&submission, &wanted(), None).expect("it can be started");
         assert_eq!(code(&intake), expected, "{script}");
     }
-    let missing = Reader::Apart(folder.path().join("missing")).take(&submission, "", None);
+    let missing = Reader::Apart(folder.path().join("missing")).take(&submission, &wanted(), None);
     assert!(matches!(missing, Err(Error::Harness(_))), "{missing:?}");
-    let nothing = apart().take(&[folder.path().join("nothing")], "", None);
+    let nothing = apart().take(&[folder.path().join("nothing")], &wanted(), None);
     assert!(matches!(nothing, Err(Error::Input(_))), "{nothing:?}");
 }

@@ -14,6 +14,9 @@ use serde_json::json;
 const RUBRIC: &str = "
 assignment: tiny
 title: A few cheap checks
+submission: { file: skeleton/src/algorithms/render_pt.rs, contract: path-tracer, solution: solution/src/algorithms/render_pt.rs }
+techniques: [bsdf, nee, mis]
+reference_technique: mis
 tasks:
   - id: '1'
     title: Light

@@ -25,12 +25,18 @@ pub const TARGETS: [Target; 8] = [
     ("tables", tables),
 ];
 
+/// The student's file of exercise 5, with this starting file.
+fn wanted(starter: &str) -> intake::Wanted {
+    let [file_name, type_name, starter] = ["render_pt.rs", "PathTracer", starter].map(str::to_owned);
+    intake::Wanted { file_name, type_name, starter }
+}
+
 /// A file that a student sent; the first byte selects its name.
 pub fn archives(data: &[u8]) {
     const NAMES: [&str; 6] = ["a.zip", "a.tar.gz", "a.tar", "render_pt.rs", "why.txt", "unknown"];
     let Some((first, bytes)) = data.split_first() else { return };
     let name = NAMES[usize::from(*first) % NAMES.len()];
-    let intake = intake::take_bytes(name, bytes, "pub struct PathTracer;\n");
+    let intake = intake::take_bytes(name, bytes, &wanted("pub struct PathTracer;\n"));
     let findings = intake.notes.iter().map(ToString::to_string);
     for text in findings.chain(intake.outcome.err().map(|refusal| refusal.to_string())) {
         assert!(!text.chars().any(char::is_control), "{text:?}");
@@ -48,7 +54,7 @@ pub fn repository(data: &[u8]) {
     write(&folder, ".git/refs/heads/x", b"");
     write(&folder, ".git/objects/pack/a.idx", index);
     write(&folder, ".git/objects/pack/a.pack", pack);
-    let _ = intake::take(&[folder.path().to_owned()], "", None);
+    let _ = intake::take(&[folder.path().to_owned()], &wanted(""), None);
 }
 
 /// A scene file.

@@ -5,14 +5,16 @@
 use std::path::PathBuf;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use harness::build::{Framework, compile};
+use harness::assignment::AssignmentOption;
+use harness::build::compile;
 use harness::host_process::HostProcess;
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
 
 fn build(criterion: &mut Criterion) {
     let workspace = Workspace::find().expect("the bench runs in the workspace");
-    let framework = Framework::build(&workspace).expect("the framework builds");
+    let assignment = AssignmentOption::default().open(&workspace).expect("there is one");
+    let framework = assignment.framework(&workspace).expect("the framework builds");
     let source = |file: PathBuf| std::fs::read_to_string(file).expect("the file can be read");
     let scene = arty::scene::file::load(&workspace.scene_file("cornell_box"))
         .expect("the scene is in the collection")
@@ -21,7 +23,8 @@ fn build(criterion: &mut Criterion) {
     group.sample_size(20);
     for (name, sandbox) in [("", true), (", no sandbox", false)] {
         let limits = Limits { sandbox, ..Limits::default() };
-        for (which, file) in [("starter", workspace.student_file()), ("solution", workspace.solution_file())]
+        for (which, file) in
+            [("starter", assignment.folder.starter_file()), ("solution", assignment.solution_file())]
         {
             let source = source(file);
             group.bench_function(format!("compile {which}{name}"), |b| {
@@ -30,7 +33,7 @@ fn build(criterion: &mut Criterion) {
                 });
             });
         }
-        let program = compile(&framework, &source(workspace.solution_file()), &limits)
+        let program = compile(&framework, &source(assignment.solution_file()), &limits)
             .expect("rustc runs")
             .expect("the file compiles");
         group.bench_function(format!("start, end{name}"), |b| {

@@ -68,6 +68,21 @@ impl AssignmentFolder {
         }
     }
 
+    /// Phrases of the solution that a handout may contain; need not exist.
+    pub fn leaks_file(&self) -> PathBuf {
+        self.path.join("leaks.yml")
+    }
+
+    /// Folder of files that take the place of those of the checkout in a handout; need not exist.
+    pub fn overlay(&self) -> PathBuf {
+        self.path.join("overlay")
+    }
+
+    /// What the figures of the sheet show; need not exist.
+    pub fn figures_file(&self) -> PathBuf {
+        self.path.join("figures.yml")
+    }
+
     /// Known mistakes, described for students.
     pub fn causes_file(&self) -> PathBuf {
         self.path.join("causes.yml")

@@ -66,16 +66,6 @@ impl Workspace {
         &self.root
     }
 
-    /// The student's file in the skeleton.
-    pub fn student_file(&self) -> PathBuf {
-        self.root.join("skeleton/src/algorithms/render_pt.rs")
-    }
-
-    /// The solution's version of the student's file. Handouts do not contain it.
-    pub fn solution_file(&self) -> PathBuf {
-        self.root.join("solution/src/algorithms/render_pt.rs")
-    }
-
     /// File of a scene, `scenes/<scene>.yml`.
     pub fn scene_file(&self, scene: &str) -> PathBuf {
         self.root.join("scenes").join(format!("{scene}.yml"))
@@ -106,9 +96,37 @@ impl Workspace {
         self.root.join("grader/lab/limits")
     }
 
+    /// Folder of all assignments.
+    pub fn assignments_folder(&self) -> PathBuf {
+        self.root.join("assignments")
+    }
+
+    /// Names of all assignments, sorted: the folders with a rubric.
+    ///
+    /// # Errors
+    /// If the folder of all assignments cannot be read.
+    pub fn assignments(&self) -> Result<Vec<String>> {
+        let folder = self.assignments_folder();
+        let trouble = |error| Error::file(&folder, error);
+        let mut names = Vec::new();
+        for entry in std::fs::read_dir(&folder).map_err(trouble)? {
+            let entry = entry.map_err(trouble)?;
+            if AssignmentFolder::new(entry.path()).rubric_file().is_file() {
+                names.push(entry.file_name().to_string_lossy().into_owned());
+            }
+        }
+        names.sort();
+        Ok(names)
+    }
+
+    /// True if this is a checkout of staff: handouts do not contain the solution's program.
+    pub fn is_staff(&self) -> bool {
+        self.root.join("solution/Cargo.toml").is_file()
+    }
+
     /// Folder of an assignment. An absolute `name` is used as it is.
     pub fn assignment(&self, name: &str) -> AssignmentFolder {
-        AssignmentFolder::new(self.root.join("assignments").join(name))
+        AssignmentFolder::new(self.assignments_folder().join(name))
     }
 
     /// Cargo's target folder for the framework that submissions are linked against.

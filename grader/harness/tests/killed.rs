@@ -6,7 +6,8 @@ use std::process::Command;
 use std::time::Duration;
 
 use arty::integrator::{Settings, Technique};
-use harness::build::{Framework, compile};
+use harness::assignment::Assignment;
+use harness::build::compile;
 use harness::host_process::HostProcess;
 use harness::job::JobError;
 use harness::sandbox::Limits;
@@ -39,7 +40,9 @@ fn children() -> Vec<u32> {
 #[test]
 fn a_process_that_is_ended_is_at_fault_unless_the_kernel_had_no_memory_left() {
     let workspace = Workspace::find().expect("the tests run inside the checkout");
-    let framework = Framework::build(&workspace).expect("the framework builds");
+    let framework = Assignment::open(&workspace, "05-nee-mis")
+        .and_then(|it| it.framework(&workspace))
+        .expect("the framework builds");
     let program = compile(&framework, ENDLESS, &Limits::default()).expect("rustc runs").expect("it compiles");
     let scene =
         arty::scene::file::load(&workspace.scene_file("point_plane")).expect("it is there").description;

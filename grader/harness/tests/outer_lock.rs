@@ -7,6 +7,7 @@ use std::os::unix::fs::MetadataExt;
 
 use arty::integrator::{Settings, Technique};
 use arty::scene::SceneDescription;
+use harness::assignment::Assignment;
 use harness::build::{Framework, SubmissionProgram, compile, differences};
 use harness::host_process::HostProcess;
 use harness::job::apart;
@@ -29,7 +30,9 @@ impl Here {
             return None;
         }
         let workspace = Workspace::find().expect("the tests run inside the checkout");
-        let framework = Framework::build(&workspace).expect("the framework builds");
+        let framework = Assignment::open(&workspace, "05-nee-mis")
+            .and_then(|it| it.framework(&workspace))
+            .expect("the framework builds");
         let scene =
             arty::scene::file::load(&workspace.scene_file("point_plane")).expect("it is there").description;
         Some(Self { workspace, framework, scene })

@@ -4,7 +4,8 @@
 use std::time::Duration;
 
 use arty::integrator::{Settings, Technique};
-use harness::build::{Framework, compile};
+use harness::assignment::Assignment;
+use harness::build::compile;
 use harness::host_process::HostProcess;
 use harness::job::apart;
 use harness::sandbox::Limits;
@@ -15,7 +16,9 @@ use verdict::check::Fault;
 #[test]
 fn nobody_waits_to_the_end_for_a_submission_that_is_too_slow_by_far_unless_it_had_no_time() {
     let workspace = Workspace::find().expect("the tests run inside the checkout");
-    let framework = Framework::build(&workspace).expect("the framework builds");
+    let framework = Assignment::open(&workspace, "05-nee-mis")
+        .and_then(|it| it.framework(&workspace))
+        .expect("the framework builds");
     let scene = arty::scene::file::load(&workspace.scene_file("point_plane")).expect("it is there");
     // 16 batches of one pixel, on one thread, within 3 s: each may take about 190 ms, and the first two 500 together.
     let render = |sample: &str| {

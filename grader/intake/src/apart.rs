@@ -11,12 +11,12 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Intake, Note, Refusal, limits};
+use super::{Intake, Note, Refusal, Wanted, limits};
 use verdict::error::{Error, Result};
-use verdict::submission::{Explanation, FILE_NAME, Submission};
+use verdict::submission::{Explanation, Submission};
 
-/// Name of the hidden command of the program that is started: `COMMAND [--source=PATH] -- PATH…`, with the starting
-/// file on standard input.
+/// Name of the hidden command of the program that is started: `COMMAND [--source=PATH] -- PATH…`, with what is
+/// [`Wanted`] as JSON on standard input.
 pub const COMMAND: &str = "__intake";
 
 /// Who reads submissions.
@@ -47,14 +47,14 @@ impl Reader {
     ///
     /// # Errors
     /// If a path does not exist, or the process cannot be started.
-    pub fn take(&self, paths: &[PathBuf], starter: &str, source: Option<&str>) -> Result<Intake> {
-        let Self::Apart(program) = self else { return super::take(paths, starter, source) };
+    pub fn take(&self, paths: &[PathBuf], wanted: &Wanted, source: Option<&str>) -> Result<Intake> {
+        let Self::Apart(program) = self else { return super::take(paths, wanted, source) };
         super::check_exist(paths)?;
         let mut command = Command::new(program);
         command.arg(COMMAND).args(source.map(|source| format!("--source={source}"))).arg("--").args(paths);
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null());
-        let path = paths.first().cloned().unwrap_or_else(|| FILE_NAME.into());
-        let (answer, status) = ask(command, starter)
+        let path = paths.first().cloned().unwrap_or_else(|| (&wanted.file_name).into());
+        let (answer, status) = ask(command, wanted)
             .map_err(|error| Error::Harness(format!("{} cannot be started: {error}", program.display())))?;
         Ok(match answer {
             Some(answer) => Intake {
@@ -71,8 +71,8 @@ impl Reader {
     ///
     /// # Errors
     /// If it contains nothing to grade.
-    pub fn read(&self, path: &Path) -> Result<Submission> {
-        self.take(&[path.to_owned()], "", None)?.outcome.map_err(|refusal| Error::file(path, refusal))
+    pub fn read(&self, path: &Path, wanted: &Wanted) -> Result<Submission> {
+        self.take(&[path.to_owned()], wanted, None)?.outcome.map_err(|refusal| Error::file(path, refusal))
     }
 }
 
@@ -83,17 +83,19 @@ impl Reader {
 /// If `lock` fails, or nobody reads the answer.
 pub fn serve(paths: &[PathBuf], source: Option<&str>, lock: impl FnOnce() -> Result<()>) -> Result<()> {
     let broken = |error: std::io::Error| Error::Harness(format!("the pipe of intake: {error}"));
-    let mut starter = String::new();
-    std::io::stdin().read_to_string(&mut starter).map_err(broken)?;
+    let mut wanted = String::new();
+    std::io::stdin().read_to_string(&mut wanted).map_err(broken)?;
+    let wanted: Wanted = serde_json::from_str(&wanted).map_err(|error| broken(error.into()))?;
     lock()?;
-    let Intake { outcome, notes, explanations, checksums } = super::take(paths, &starter, source)?;
+    let Intake { outcome, notes, explanations, checksums } = super::take(paths, &wanted, source)?;
     let answer = Answer { outcome: outcome.map(|it| it.source), notes, explanations, checksums };
     let text = serde_json::to_vec(&answer).map_err(|error| broken(error.into()))?;
     std::io::stdout().write_all(&text).map_err(broken)
 }
 
 /// Starts the process and waits for its answer; `None` if there is no valid one.
-fn ask(mut command: Command, starter: &str) -> std::io::Result<(Option<Answer>, Option<ExitStatus>)> {
+fn ask(mut command: Command, wanted: &Wanted) -> std::io::Result<(Option<Answer>, Option<ExitStatus>)> {
+    let wanted = serde_json::to_vec(wanted)?;
     let mut child = command.spawn()?;
     let (send, receive) = channel();
     let reader = child.stdout.take().map(|output| {
@@ -106,7 +108,7 @@ fn ask(mut command: Command, starter: &str) -> std::io::Result<(Option<Answer>, 
     });
     if let Some(mut input) = child.stdin.take() {
         // A process that ends early says so by its status.
-        let _ = input.write_all(starter.as_bytes());
+        let _ = input.write_all(&wanted);
     }
     let bytes = receive.recv_timeout(MAX_TIME);
     let status = end(&mut child, bytes.is_ok())?;

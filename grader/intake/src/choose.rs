@@ -5,8 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::content;
 use super::names::{self, base};
 use super::text::{decode, with_our_line_ends};
-use super::{Note, Refusal, md5_of};
-use verdict::submission::FILE_NAME;
+use super::{Note, Refusal, Wanted, md5_of};
 
 /// A file that may be the source.
 pub(super) struct Found {
@@ -49,11 +48,11 @@ impl Candidates {
     /// version of it. Leaves what was not selected.
     pub(super) fn choose(
         &mut self,
-        starter: &str,
+        wanted: &Wanted,
         picked: Option<&str>,
         notes: &mut Vec<Note>,
     ) -> Result<Chosen, Refusal> {
-        let starter = with_our_line_ends(starter);
+        let starter = with_our_line_ends(&wanted.starter);
         let starter = starter.trim();
         let is_twice = |bad: &&Refusal| match bad {
             Refusal::TwoEntries(name) => picked.is_none_or(|picked| names::is_at(name, picked)),
@@ -64,11 +63,11 @@ impl Candidates {
         }
         let candidates = match picked {
             Some(picked) => self.at(picked)?,
-            None => self.eligible(starter, notes)?,
+            None => self.eligible(wanted, starter, notes)?,
         };
         let Some(first) = candidates.first() else {
             let bad = (!self.bad.is_empty()).then(|| self.bad.remove(0));
-            return Err(bad.unwrap_or(Refusal::MissingFile(Vec::new())));
+            return Err(bad.unwrap_or(Refusal::MissingFile(wanted.file_name.clone(), Vec::new())));
         };
         let distinct: BTreeSet<String> = candidates.iter().map(|found| comparable(&found.bytes)).collect();
         let names: BTreeSet<String> = candidates.iter().map(|found| found.name.clone()).collect();
@@ -104,23 +103,35 @@ impl Candidates {
     }
 
     /// Candidates that are left when the starting file, other names and older versions are passed over.
-    fn eligible(&mut self, starter: &str, notes: &mut Vec<Note>) -> Result<Vec<Found>, Refusal> {
+    fn eligible(
+        &mut self,
+        wanted: &Wanted,
+        starter: &str,
+        notes: &mut Vec<Note>,
+    ) -> Result<Vec<Found>, Refusal> {
+        let Wanted { file_name, type_name, .. } = wanted;
+        let may_be_source = |found: &Found| content::may_be_source(&found.bytes, type_name);
         let mut candidates = std::mem::take(&mut self.named);
         let mut others = std::mem::take(&mut self.other);
-        others.retain(|found| content::may_be_source(&found.bytes) && !found.is_starter(starter));
-        let is_none = |found: &Found| found.is_starter(starter) || !content::may_be_source(&found.bytes);
+        others.retain(|found| may_be_source(found) && !found.is_starter(starter));
+        let is_none = |found: &Found| found.is_starter(starter) || !may_be_source(found);
         if candidates.iter().all(is_none) && self.bad.is_empty() {
             candidates.append(&mut others);
         }
         notes.extend(sorted(others).into_iter().map(|found| Note::OtherSource(found.name)));
         pass_over(&mut candidates, notes, |found| found.is_starter(starter), Note::StarterToo);
-        pass_over(&mut candidates, notes, |found| !content::may_be_source(&found.bytes), Note::NoType);
-        let candidates = newest(candidates, notes);
+        pass_over(
+            &mut candidates,
+            notes,
+            |found| !may_be_source(found),
+            |name| Note::NoType(name, type_name.clone()),
+        );
+        let candidates = newest(candidates, file_name, notes);
         if let Some(renamed) =
-            candidates.iter().find(|found| !base(&found.name).eq_ignore_ascii_case(FILE_NAME))
+            candidates.iter().find(|found| !base(&found.name).eq_ignore_ascii_case(file_name))
             && candidates.len() == 1
         {
-            notes.push(Note::OtherName(base(&renamed.name).to_owned()));
+            notes.push(Note::OtherName(base(&renamed.name).to_owned(), file_name.clone()));
         }
         Ok(sorted(candidates))
     }
@@ -140,14 +151,15 @@ fn pass_over(
 }
 
 /// Of several versions in one place, keeps the newest.
-fn newest(candidates: Vec<Found>, notes: &mut Vec<Note>) -> Vec<Found> {
+fn newest(candidates: Vec<Found>, file_name: &str, notes: &mut Vec<Note>) -> Vec<Found> {
     let mut newest: BTreeMap<String, u32> = BTreeMap::new();
-    for (place, number) in candidates.iter().filter_map(|found| names::version(&found.name)) {
+    for (place, number) in candidates.iter().filter_map(|found| names::version(&found.name, file_name)) {
         let highest = newest.entry(place).or_default();
         *highest = number.max(*highest);
     }
     let is_newest = |found: &Found| {
-        names::version(&found.name).is_none_or(|(place, number)| newest.get(&place) == Some(&number))
+        names::version(&found.name, file_name)
+            .is_none_or(|(place, number)| newest.get(&place) == Some(&number))
     };
     let (kept, older): (Vec<Found>, Vec<Found>) = candidates.into_iter().partition(is_newest);
     notes.extend(sorted(older).into_iter().map(|found| Note::OlderVersion(found.name)));

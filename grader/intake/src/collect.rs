@@ -10,11 +10,12 @@ use super::choose::{Candidates, Found};
 use super::content;
 use super::explanation::{explanation, is_ordinary};
 use super::names::{self, Kind};
-use super::{Explanation, Intake, Note, Refusal, limits, md5_of};
+use super::{Explanation, Intake, Note, Refusal, Wanted, limits, md5_of};
 use verdict::submission::Submission;
 
 /// Files found so far.
 pub(super) struct Collector {
+    wanted: Wanted,
     candidates: Candidates,
     explanations: Vec<Explanation>,
     /// Other things that could not be read: a refusal if no source is found, otherwise a note.
@@ -30,8 +31,9 @@ pub(super) struct Collector {
 const NAMED: usize = 5;
 
 impl Collector {
-    pub(super) fn new() -> Self {
+    pub(super) fn new(wanted: &Wanted) -> Self {
         Self {
+            wanted: wanted.clone(),
             candidates: Candidates::default(),
             explanations: Vec::new(),
             obstacles: Vec::new(),
@@ -40,6 +42,16 @@ impl Collector {
             budget: Budget::new(),
             seen: Vec::new(),
         }
+    }
+
+    /// Kind of a file by its name.
+    pub(super) fn kind(&self, name: &str) -> Kind {
+        names::kind(name, &self.wanted.file_name)
+    }
+
+    /// True for a text that is Rust and defines the type of a submission.
+    pub(super) fn is_source(&self, bytes: &[u8]) -> bool {
+        content::is_source(bytes, &self.wanted.type_name)
     }
 
     /// What reading the submission may cost.
@@ -81,12 +93,12 @@ impl Collector {
         if self.seen.len() < NAMED {
             self.seen.push(names::shown("", name));
         }
-        names::kind(name) != Kind::Other
+        self.kind(name) != Kind::Other
     }
 
     /// Takes a file according to its name, as [`names::shown`]. `depth` is the number of archives that it is inside.
     pub(super) fn offer(&mut self, name: &str, reader: &mut dyn Read, depth: usize) -> Result<(), Stop> {
-        match names::kind(name) {
+        match self.kind(name) {
             Kind::Named | Kind::OtherSource => self.offer_source(name, reader, depth),
             Kind::Text | Kind::Explanation => self.offer_text(name, reader),
             Kind::Archive if depth > 1 => {
@@ -119,7 +131,7 @@ impl Collector {
 
     fn offer_text(&mut self, name: &str, reader: &mut dyn Read) -> Result<(), Stop> {
         let is_full = self.explanations.len() >= 5 * limits::EXPLANATIONS;
-        if is_full && names::kind(name) == Kind::Explanation {
+        if is_full && self.kind(name) == Kind::Explanation {
             self.note(Note::PassedOver(format!("{name}: too many explanations")));
             return Ok(());
         }
@@ -128,7 +140,7 @@ impl Collector {
         let passed_over = match self.budget().read(reader, max)? {
             Ok(Some(bytes)) => {
                 let small = bytes.len() as u64 <= limits::SOURCE;
-                if names::kind(name) == Kind::Text && small && content::is_source(&bytes) {
+                if self.kind(name) == Kind::Text && small && self.is_source(&bytes) {
                     return self.keep_other(name, bytes);
                 }
                 // Those of the project are dropped at the end.
@@ -146,7 +158,7 @@ impl Collector {
     }
 
     fn offer_source(&mut self, name: &str, reader: &mut dyn Read, depth: usize) -> Result<(), Stop> {
-        let is_named = names::kind(name) == Kind::Named;
+        let is_named = self.kind(name) == Kind::Named;
         let max = limits::SOURCE;
         match self.budget().read(reader, max)? {
             Ok(Some(bytes)) if is_named => return self.offer_as_source(name, bytes),
@@ -180,10 +192,10 @@ impl Collector {
     }
 
     /// Selects the source to grade: the one at `picked`, if that is given.
-    pub(super) fn conclude(mut self, path: PathBuf, starter: &str, picked: Option<&str>) -> Intake {
+    pub(super) fn conclude(mut self, path: PathBuf, picked: Option<&str>) -> Intake {
         let chosen = match self.budget.exceeded() {
             Some(refusal) => Err(refusal),
-            None => self.candidates.choose(starter, picked, &mut self.notes),
+            None => self.candidates.choose(&self.wanted, picked, &mut self.notes),
         };
         let outcome = match chosen {
             Ok(chosen) => {
@@ -192,11 +204,11 @@ impl Collector {
                 self.checksums.extend(chosen.checksums);
                 Ok(Submission { path, source: chosen.text })
             }
-            Err(Refusal::MissingFile(_)) => Err(self
+            Err(Refusal::MissingFile(file, _)) => Err(self
                 .obstacles
                 .into_iter()
                 .next()
-                .unwrap_or_else(|| Refusal::MissingFile(std::mem::take(&mut self.seen)))),
+                .unwrap_or_else(|| Refusal::MissingFile(file, std::mem::take(&mut self.seen)))),
             Err(refusal) => Err(refusal),
         };
         // With nothing else to mark, a README may be the explanation.

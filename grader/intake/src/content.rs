@@ -4,34 +4,31 @@ use proc_macro2::{TokenStream, TokenTree};
 
 use super::text::decode;
 
-/// The type that a submission defines. Other files of the framework only use it.
-const TYPE: &str = "PathTracer";
-
 /// True for a text that may define the type of a submission. A text that the lexer cannot read is judged by its words:
 /// a missing bracket must not hide a source from its student.
-pub(super) fn may_be_source(bytes: &[u8]) -> bool {
-    text(bytes).is_some_and(|text| match text.parse::<TokenStream>() {
-        Ok(tokens) => defines_type(tokens),
-        Err(_) => text.contains(&format!("struct {TYPE}")),
+pub(super) fn may_be_source(bytes: &[u8], type_name: &str) -> bool {
+    text(bytes, type_name).is_some_and(|text| match text.parse::<TokenStream>() {
+        Ok(tokens) => defines_type(tokens, type_name),
+        Err(_) => text.contains(&format!("struct {type_name}")),
     })
 }
 
 /// True for a text that is Rust and defines the type of a submission. Prose that quotes a definition is not Rust: Rust
 /// begins with an item or an attribute.
-pub(super) fn is_source(bytes: &[u8]) -> bool {
-    let tokens = text(bytes).and_then(|text| text.parse::<TokenStream>().ok());
-    tokens.is_some_and(|tokens| begins_with_item(&tokens) && defines_type(tokens))
+pub(super) fn is_source(bytes: &[u8], type_name: &str) -> bool {
+    let tokens = text(bytes, type_name).and_then(|text| text.parse::<TokenStream>().ok());
+    tokens.is_some_and(|tokens| begins_with_item(&tokens) && defines_type(tokens, type_name))
 }
 
-fn text(bytes: &[u8]) -> Option<String> {
-    decode(bytes, &mut Vec::new()).ok().filter(|text| text.contains(TYPE))
+fn text(bytes: &[u8], type_name: &str) -> Option<String> {
+    decode(bytes, &mut Vec::new()).ok().filter(|text| text.contains(type_name))
 }
 
-fn defines_type(tokens: TokenStream) -> bool {
+fn defines_type(tokens: TokenStream, type_name: &str) -> bool {
     let mut defines = false;
     for token in tokens {
         match token {
-            TokenTree::Ident(word) if defines && word == TYPE => return true,
+            TokenTree::Ident(word) if defines && word == type_name => return true,
             TokenTree::Ident(word) => defines = word == "struct" || word == "enum" || word == "type",
             _ => defines = false,
         }

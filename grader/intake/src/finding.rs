@@ -2,14 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use verdict::submission::{FILE_NAME, IntakeFinding};
+use verdict::submission::IntakeFinding;
 use verdict::text::harmless;
 
 /// Why a submission is not graded. Names of files are printed without control characters.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Refusal {
-    /// `missing-file`: it contains no source. Names some of the other files in it.
-    MissingFile(Vec<String>),
+    /// `missing-file`: it contains no source. The usual name of the source, and some of the other files in it.
+    MissingFile(String, Vec<String>),
     /// `several-candidates`: it contains several sources that differ.
     SeveralCandidates(Vec<String>),
     /// `duplicate-entry`: two files of the same name in one archive differ, so that programs disagree about its content.
@@ -59,7 +59,7 @@ impl Refusal {
     /// Code for tables and scripts.
     pub fn code(&self) -> &'static str {
         match self {
-            Self::MissingFile(_) => "missing-file",
+            Self::MissingFile(..) => "missing-file",
             Self::SeveralCandidates(_) => "several-candidates",
             Self::TwoEntries(_) => "duplicate-entry",
             Self::NotThere(..) => "source-not-found",
@@ -86,9 +86,9 @@ impl Refusal {
 impl std::fmt::Display for Refusal {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::MissingFile(others) if others.is_empty() => write!(f, "there is no {FILE_NAME} in it"),
-            Self::MissingFile(others) => {
-                write!(f, "there is no {FILE_NAME} in it, but {}", listed(others))
+            Self::MissingFile(file, others) if others.is_empty() => write!(f, "there is no {file} in it"),
+            Self::MissingFile(file, others) => {
+                write!(f, "there is no {file} in it, but {}", listed(others))
             }
             Self::SeveralCandidates(names) => write!(
                 f,
@@ -108,13 +108,13 @@ impl std::fmt::Display for Refusal {
             Self::TooLarge { name, max } => {
                 write!(f, "{} is too large (at most {max} bytes)", harmless(name))
             }
-            Self::NotSource(what) => write!(f, "its {FILE_NAME} is {what}, not a text file"),
-            Self::Empty => write!(f, "its {FILE_NAME} is empty"),
+            Self::NotSource(what) => write!(f, "its source is {what}, not a text file"),
+            Self::Empty => write!(f, "its source is empty"),
             Self::Encoding => {
-                write!(f, "its {FILE_NAME} is marked as UTF-16 but is not valid; save it as UTF-8")
+                write!(f, "its source is marked as UTF-16 but is not valid; save it as UTF-8")
             }
             Self::NulBytes => {
-                write!(f, "its {FILE_NAME} contains NUL bytes, so it is not a text file; save it as UTF-8")
+                write!(f, "its source contains NUL bytes, so it is not a text file; save it as UTF-8")
             }
             Self::Link(name) => write!(f, "{} is a link, and links are not followed", harmless(name)),
             Self::NoFile(name) => write!(f, "{} is neither a file nor a folder", harmless(name)),
@@ -160,8 +160,8 @@ pub enum Note {
     LineEnds,
     /// `copies`: it contains several equal sources.
     Copies(Vec<String>),
-    /// `other-name`: the only source has another name.
-    OtherName(String),
+    /// `other-name`: the only source has another name; the name, and the usual one.
+    OtherName(String, String),
     /// `starter-too`: it also contains the unchanged starting file, which was skipped.
     StarterToo(String),
     /// `other-source`: it also contains a source with another name, which was skipped.
@@ -169,7 +169,8 @@ pub enum Note {
     /// `older-version`: it also contains an older version of the source by the naming of a course system; skipped.
     OlderVersion(String),
     /// `no-type`: it also contains a file with the right name that does not define the type of a submission; skipped.
-    NoType(String),
+    /// The file, and the type.
+    NoType(String, String),
     /// `untouched`: the source is the unchanged starting file.
     Untouched,
     /// `uncommitted`: the file on disk differs from the last commit, which is graded.
@@ -187,11 +188,11 @@ impl Note {
             Self::Windows1252(_) => "windows-1252",
             Self::LineEnds => "line-ends",
             Self::Copies(_) => "copies",
-            Self::OtherName(_) => "other-name",
+            Self::OtherName(..) => "other-name",
             Self::StarterToo(_) => "starter-too",
             Self::OtherSource(_) => "other-source",
             Self::OlderVersion(_) => "older-version",
-            Self::NoType(_) => "no-type",
+            Self::NoType(..) => "no-type",
             Self::Untouched => "untouched",
             Self::Uncommitted(_) => "uncommitted",
             Self::PassedOver(_) => "passed-over",
@@ -209,7 +210,7 @@ impl std::fmt::Display for Note {
             }
             Self::LineEnds => write!(f, "line ends of another system were replaced"),
             Self::Copies(names) => write!(f, "it contains {} equal copies of the source", names.len()),
-            Self::OtherName(name) => write!(f, "it is called {}, not {FILE_NAME}", harmless(name)),
+            Self::OtherName(name, usual) => write!(f, "it is called {}, not {usual}", harmless(name)),
             Self::StarterToo(name) => {
                 write!(f, "{} is the unchanged starting file and was skipped", harmless(name))
             }
@@ -219,8 +220,8 @@ impl std::fmt::Display for Note {
             Self::OlderVersion(name) => {
                 write!(f, "{} is an older version and was skipped", harmless(name))
             }
-            Self::NoType(name) => {
-                write!(f, "{} does not define PathTracer and was skipped", harmless(name))
+            Self::NoType(name, type_name) => {
+                write!(f, "{} does not define {type_name} and was skipped", harmless(name))
             }
             Self::Untouched => write!(f, "it is the unchanged starting file"),
             Self::Uncommitted(name) => {

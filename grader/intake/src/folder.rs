@@ -8,7 +8,7 @@ use super::archive::{self, Container};
 use super::budget::Stop;
 use super::collect::Collector;
 use super::names::{self, Kind, shown};
-use super::{Refusal, content, git, limits};
+use super::{Refusal, git, limits};
 
 /// Collects a path that was named: a folder, or a file of any name. A link is not followed.
 ///
@@ -56,7 +56,7 @@ fn collect(folder: &Path, inside: &str, collector: &mut Collector) -> Result<(),
             let (shown, name) = name_of(&path);
             if metadata.is_dir() && depth < limits::DEPTH && !names::is_left_behind(&name) {
                 waiting.push((path, depth + 1));
-            } else if metadata.is_symlink() && names::kind(&name) == Kind::Named {
+            } else if metadata.is_symlink() && collector.kind(&name) == Kind::Named {
                 collector.bad_source(Refusal::Link(shown));
             } else if metadata.is_file() && collector.wants(&name) {
                 collect_file(&path, &shown, collector)?;
@@ -93,7 +93,7 @@ pub(super) fn collect_bytes(name: &str, mut bytes: &[u8], collector: &mut Collec
 }
 
 fn collect_named(name: &str, reader: &mut dyn Read, collector: &mut Collector) -> Result<(), Stop> {
-    let is_rust = match names::kind(name) {
+    let is_rust = match collector.kind(name) {
         Kind::Named | Kind::OtherSource => true,
         Kind::Other => false,
         _ => return collector.offer(name, reader, 0),
@@ -112,7 +112,7 @@ fn collect_named(name: &str, reader: &mut dyn Read, collector: &mut Collector) -
             return archive::collect(name, &bytes, 0, collector);
         }
         // Course systems without folders put pictures and tables beside the source.
-        Ok(Some(bytes)) if is_rust || content::is_source(&bytes) => {
+        Ok(Some(bytes)) if is_rust || collector.is_source(&bytes) => {
             return collector.offer_as_source(name, bytes);
         }
         Ok(None) if is_rust => collector.bad_source(Refusal::TooLarge { name: name.to_owned(), max }),

@@ -1,7 +1,7 @@
 //! Intake: finds the one source to grade in a file, folder, archive or git repository.
 //!
-//! [`take`] searches a submission for a file called [`FILE_NAME`] in any folder, or else for another Rust source that
-//! defines the type of a submission. Archives are streamed, never unpacked to disk, and nothing in their headers is
+//! [`take`] searches a submission for the file that is [`Wanted`] in any folder, or else for another Rust source that
+//! defines its type. Archives are streamed, never unpacked to disk, and nothing in their headers is
 //! trusted: everything is counted against [`limits`]. One archive may be inside another, since course systems pack the
 //! archives of students again. Of a git repository, the last commit is read without git. A submission that cannot be
 //! graded gets a [`Refusal`] with a code; anything odd but harmless becomes a [`Note`]. Texts that are no source are
@@ -22,16 +22,18 @@ mod git;
 pub mod limits;
 mod names;
 mod text;
+mod wanted;
 
 use std::path::{Path, PathBuf};
 
 use md5::{Digest, Md5};
 
 use verdict::error::{Error, Result};
-use verdict::submission::{Explanation, FILE_NAME, Submission};
+use verdict::submission::{Explanation, Submission};
 
 pub use apart::{COMMAND, Reader, serve};
 pub use finding::{Note, Refusal};
+pub use wanted::Wanted;
 
 use collect::Collector;
 
@@ -48,15 +50,14 @@ pub struct Intake {
     pub checksums: Vec<String>,
 }
 
-/// Takes in a submission: all files, folders and archives that one student sent. `starter` is the text of the starting
-/// file, or empty: a file equal to it counts only if there is no other source. `source` picks the source by the end of
+/// Takes in a submission: all files, folders and archives that one student sent. `source` picks the source by the end of
 /// its path, in archives too; `None` if there is nothing to choose.
 ///
 /// # Errors
 /// If a path does not exist. Faults of the submission are in its `outcome`.
-pub fn take(paths: &[PathBuf], starter: &str, source: Option<&str>) -> Result<Intake> {
+pub fn take(paths: &[PathBuf], wanted: &Wanted, source: Option<&str>) -> Result<Intake> {
     check_exist(paths)?;
-    let mut collector = Collector::new();
+    let mut collector = Collector::new(wanted);
     for path in paths {
         let several = paths.len() > 1 && path.is_dir();
         let inside = if several { path.file_name().unwrap_or_default().to_string_lossy() } else { "".into() };
@@ -65,24 +66,24 @@ pub fn take(paths: &[PathBuf], starter: &str, source: Option<&str>) -> Result<In
             break;
         }
     }
-    let path = paths.first().cloned().unwrap_or_else(|| FILE_NAME.into());
-    Ok(collector.conclude(path, starter, source))
+    let path = paths.first().cloned().unwrap_or_else(|| (&wanted.file_name).into());
+    Ok(collector.conclude(path, source))
 }
 
 /// Takes in one file that is in memory, as if it were a submission with this name.
-pub fn take_bytes(name: &str, bytes: &[u8], starter: &str) -> Intake {
-    let mut collector = Collector::new();
+pub fn take_bytes(name: &str, bytes: &[u8], wanted: &Wanted) -> Intake {
+    let mut collector = Collector::new(wanted);
     // If it was stopped, the collector knows why.
     let _ = folder::collect_bytes(name, bytes, &mut collector);
-    collector.conclude(name.into(), starter, None)
+    collector.conclude(name.into(), None)
 }
 
 /// Reads the source of a submission: a source file with any name, a folder, an archive or a git repository.
 ///
 /// # Errors
 /// If it contains nothing to grade.
-pub fn read(path: &Path) -> Result<Submission> {
-    Reader::Here.read(path)
+pub fn read(path: &Path, wanted: &Wanted) -> Result<Submission> {
+    Reader::Here.read(path, wanted)
 }
 
 fn check_exist(paths: &[PathBuf]) -> Result<()> {

@@ -1,6 +1,5 @@
 //! Names of files in a submission.
 
-use verdict::submission::FILE_NAME;
 use verdict::text::harmless;
 
 /// The part of a path after the last `/` or `\`.
@@ -39,7 +38,7 @@ pub(super) fn is_left_behind(name: &str) -> bool {
 /// Kind of a file by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// `render_pt.rs`, in upper or lower case, or as course systems name its versions.
+    /// The source with its usual name, in upper or lower case, or as course systems name its versions.
     Named,
     /// Another Rust source.
     OtherSource,
@@ -55,9 +54,9 @@ pub(super) enum Kind {
     Other,
 }
 
-/// Kind of a file by its name.
-pub(super) fn kind(name: &str) -> Kind {
-    if version(name).is_some() {
+/// Kind of a file by its name, where `file_name` is the usual name of the source.
+pub(super) fn kind(name: &str, file_name: &str) -> Kind {
+    if version(name, file_name).is_some() {
         return Kind::Named;
     }
     let name = base(name).to_lowercase();
@@ -80,11 +79,11 @@ pub(super) fn kind(name: &str) -> Kind {
 /// Number of a version of the source in the name of its file, 0 if there is none, and where it lies; `None` for any other file.
 /// Versions can be ordered if their places are equal.
 ///
-/// Moodle without folders writes the student in front (`Ann Lee_11_assignsubmission_file_render_pt.rs`). ILIAS numbers
-/// files of the same name in the order of their arrival (`render_pt (2).rs`), and writes words and a dash in front of
-/// those that are late (`Late Submission - render_pt (3).rs`). Browsers number downloads in the same way.
-pub(super) fn version(name: &str) -> Option<(String, u32)> {
-    let (stem, end) = FILE_NAME.rsplit_once('.')?;
+/// Moodle without folders writes the student in front (`Ann Lee_11_assignsubmission_file_tracer.rs`). ILIAS numbers
+/// files of the same name in the order of their arrival (`tracer (2).rs`), and writes words and a dash in front of
+/// those that are late (`Late Submission - tracer (3).rs`). Browsers number downloads in the same way.
+pub(super) fn version(name: &str, file_name: &str) -> Option<(String, u32)> {
+    let (stem, end) = file_name.rsplit_once('.')?;
     let lower = base(name).to_lowercase();
     let before_end = lower.strip_suffix(end)?.strip_suffix('.')?;
     let (before_number, number) = match before_end.strip_suffix(')').and_then(|it| it.rsplit_once('(')) {
@@ -127,7 +126,7 @@ mod tests {
             ("render_pt.rs.txt", None),
         ] {
             let expected = expected.map(|(place, number)| (place.to_owned(), number));
-            assert_eq!(version(name), expected, "{name}");
+            assert_eq!(version(name, "render_pt.rs"), expected, "{name}");
         }
     }
 

@@ -7,13 +7,18 @@ use std::time::Duration;
 
 use archives::{Entry, SOURCE, gzip, long_name, overlapping, tar, tar_header, zip};
 use cpu_time::ThreadTime;
-use intake::{Intake, Refusal, limits, take, take_bytes};
+use intake::{Intake, Refusal, Wanted, limits, take, take_bytes};
 use tar::EntryType;
 
 /// Processor time that any of them may take. These tests are not optimised: the grader needs a fraction of it.
 const MAX_TIME: Duration = Duration::from_secs(limits::SECONDS + 2);
 /// Maximum size in bytes of all texts and names that remain of any of them.
 const MAX_SIZE: usize = 8 << 20;
+
+fn wanted() -> Wanted {
+    let [file_name, type_name, starter] = ["render_pt.rs", "PathTracer", ""].map(str::to_owned);
+    Wanted { file_name, type_name, starter }
+}
 
 /// The code of an outcome, after a look at what it has cost.
 fn code_of(what: &str, make: impl FnOnce() -> Intake) -> &'static str {
@@ -35,11 +40,11 @@ fn code_of(what: &str, make: impl FnOnce() -> Intake) -> &'static str {
 }
 
 fn code_of_bytes(name: &str, bytes: &[u8]) -> &'static str {
-    code_of(name, || take_bytes(name, bytes, ""))
+    code_of(name, || take_bytes(name, bytes, &wanted()))
 }
 
 fn code_of_path(path: &Path) -> &'static str {
-    code_of("path", || take(&[path.to_owned()], "", None).expect("it exists"))
+    code_of("path", || take(&[path.to_owned()], &wanted(), None).expect("it exists"))
 }
 
 #[test]
@@ -287,7 +292,7 @@ fn packs_are_read_as_git_reads_them() {
     for branch in ["main", "HEAD~20", "HEAD~39"] {
         git(folder.path(), &["checkout", "-q", branch]);
         let expected = git(folder.path(), &["show", "HEAD:render_pt.rs"]);
-        let intake = take(&[folder.path().to_owned()], "", None).expect("it exists");
+        let intake = take(&[folder.path().to_owned()], &wanted(), None).expect("it exists");
         assert_eq!(intake.outcome.expect("there is one").source.trim(), expected, "{branch}");
         git(folder.path(), &["checkout", "-q", "main"]);
     }

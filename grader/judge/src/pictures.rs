@@ -16,12 +16,10 @@ use verdict::check::{CheckKind, Reason, Verdict};
 use verdict::error::Result;
 use verdict::pictures::{Picture, THUMBNAIL_SCENE, half_bits};
 use verdict::report::Report;
+use verdict::rubric::Rubric;
 
 /// Maximum number of scenes on a page: each takes 0.8 of 3 megabytes.
 pub const MAX_PICTURES: usize = 3;
-
-/// Scenes that are shown if nothing is wrong. The first is always shown, for the overview of a class.
-const DEFAULT_SCENES: [&str; MAX_PICTURES] = [THUMBNAIL_SCENE, "veach_mis", "cornell_box_glossy"];
 
 /// Number of batches, and samples per pixel of each batch.
 const BATCHES: u64 = 8;
@@ -33,14 +31,15 @@ const HALF_ROUNDING: f64 = 1.0 / 2048.0;
 /// Radius in pixels of the square that a z value covers.
 const RADIUS: usize = 2;
 
-/// Renders at most `max_pictures` pictures: of the thumbnail scene, of scenes whose mean is wrong, and of default
-/// scenes. Scenes without a display reference are omitted. A submission that crashed or exceeded its time limit is not
+/// Renders at most `max_pictures` pictures: of the thumbnail scene, for the overview of a class, of scenes whose mean is
+/// wrong, and of those that the rubric names. Scenes without a display reference are omitted. A submission that crashed or exceeded its time limit is not
 /// rendered.
 ///
 /// # Errors
 /// If the grader itself fails.
 pub fn pictures(
     workspace: &Workspace,
+    rubric: &Rubric,
     submission: &SubmissionProgram,
     report: &Report,
     threads: usize,
@@ -55,13 +54,14 @@ pub fn pictures(
     let wrong =
         wrong.filter(|check| check.id.kind == CheckKind::MeanBias).map(|check| check.id.scene.as_str());
     let mut seen: Vec<&str> = Vec::new();
-    for scene in DEFAULT_SCENES.into_iter().take(1).chain(wrong).chain(DEFAULT_SCENES) {
+    let named = rubric.pictures.iter().map(String::as_str);
+    for scene in [THUMBNAIL_SCENE].into_iter().chain(wrong).chain(named) {
         if list.len() == max_pictures {
             break;
         }
         if !seen.contains(&scene) {
             seen.push(scene);
-            list.extend(picture(workspace, submission, scene, threads, seed)?);
+            list.extend(picture(workspace, &rubric.techniques, submission, scene, threads, seed)?);
         }
     }
     Ok(list)
@@ -69,6 +69,7 @@ pub fn pictures(
 
 fn picture(
     workspace: &Workspace,
+    techniques: &[Technique],
     submission: &SubmissionProgram,
     scene: &str,
     threads: usize,
@@ -93,7 +94,7 @@ fn picture(
         rendered: Vec::new(),
     };
     let mut all = Vec::new();
-    for technique in [Technique::Bsdf, Technique::Nee, Technique::Mis] {
+    for &technique in techniques {
         let job = RenderJob::new(
             index,
             Settings { technique, max_bounces },

@@ -2,6 +2,7 @@
 
 use std::sync::OnceLock;
 
+use harness::assignment::Assignment;
 use harness::build::{Framework, compile};
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
@@ -12,11 +13,15 @@ fn workspace() -> Workspace {
     Workspace::find().expect("the tests run inside the checkout")
 }
 
+fn assignment() -> Assignment {
+    Assignment::open(&workspace(), "05-nee-mis").expect("it is sound")
+}
+
 /// The audit of the solution with texts replaced, each of which must occur exactly once.
 fn audited(changes: &[(&str, &str)]) -> Audit {
     static FRAMEWORK: OnceLock<Framework> = OnceLock::new();
-    let framework = FRAMEWORK.get_or_init(|| Framework::build(&workspace()).expect("it is built"));
-    let mut source = std::fs::read_to_string(workspace().solution_file()).expect("the solution is there");
+    let framework = FRAMEWORK.get_or_init(|| assignment().framework(&workspace()).expect("it is built"));
+    let mut source = assignment().solution().expect("the solution is there");
     for (from, to) in changes {
         assert_eq!(source.matches(from).count(), 1, "{from}");
         source = source.replace(from, to);

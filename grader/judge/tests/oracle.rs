@@ -2,16 +2,18 @@
 
 use std::time::Duration;
 
-use harness::build::Framework;
+use harness::assignment::Assignment;
 use harness::workspace::Workspace;
 use judge::reference::Oracle;
 
 #[test]
 fn the_solution_is_compiled_again_only_if_its_cached_program_is_damaged() {
     let workspace = Workspace::find().expect("the tests run inside the checkout");
-    let framework = Framework::build(&workspace).expect("the framework builds");
+    let assignment = Assignment::open(&workspace, "05-nee-mis").expect("it is sound");
+    let framework = assignment.framework(&workspace).expect("the framework builds");
     let compile_time = || {
-        let oracle = Oracle::of(&workspace, &framework).expect("it can be read").expect("it is there");
+        let oracle =
+            Oracle::of(&workspace, &assignment, &framework).expect("it can be read").expect("it is there");
         oracle.program().expect("it compiles").compile_time
     };
     compile_time();

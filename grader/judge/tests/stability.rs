@@ -8,7 +8,8 @@ use std::path::PathBuf;
 
 use arty::integrator::Technique;
 use arty::sampler::batch_seed;
-use harness::build::{Framework, SubmissionProgram, compile};
+use harness::assignment::Assignment;
+use harness::build::{SubmissionProgram, compile};
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
 use judge::grade::{Options, grade};
@@ -24,9 +25,13 @@ fn workspace() -> Workspace {
     Workspace::find().expect("the tests run inside the checkout")
 }
 
+fn assignment() -> Assignment {
+    Assignment::open(&workspace(), "05-nee-mis").expect("it is sound")
+}
+
 /// The solution with texts replaced, each of which must occur exactly once.
 fn source(changes: &[(&str, &str)]) -> String {
-    let mut source = std::fs::read_to_string(workspace().solution_file()).expect("the solution is there");
+    let mut source = assignment().solution().expect("the solution is there");
     for (from, to) in changes {
         assert_eq!(source.matches(from).count(), 1, "{from}");
         source = source.replace(from, to);
@@ -144,7 +149,7 @@ fn naive_weights_pass_with_a_remark_on_densities_where_they_fail() {
 }
 
 fn program(changes: &[(&str, &str)]) -> SubmissionProgram {
-    let framework = Framework::build(&workspace()).expect("the framework builds");
+    let framework = assignment().framework(&workspace()).expect("the framework builds");
     compile(&framework, &source(changes), &Limits::default()).expect("rustc runs").expect("it compiles")
 }
 

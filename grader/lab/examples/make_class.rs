@@ -7,10 +7,11 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
+use harness::assignment::AssignmentOption;
 use harness::workspace::Workspace;
 use lab::mutants::{Kind, variants};
 use lab::output::{create_folder, write_text};
-use verdict::error::{Error, Result};
+use verdict::error::Result;
 
 /// Make a class of submissions from the committed variants of the solution
 #[derive(Parser)]
@@ -21,9 +22,8 @@ struct Arguments {
     /// Number of submissions
     #[arg(long, default_value_t = 100)]
     count: usize,
-    /// Assignment of the variants
-    #[arg(long, default_value = "05-nee-mis")]
-    assignment: String,
+    #[command(flatten)]
+    assignment: AssignmentOption,
 }
 
 fn main() -> ExitCode {
@@ -38,8 +38,8 @@ fn main() -> ExitCode {
 
 fn make(arguments: &Arguments) -> Result<()> {
     let workspace = Workspace::find()?;
-    let assignment = workspace.assignment(&arguments.assignment);
-    let all = variants(&workspace, &assignment, &assignment.rubric()?)?.list;
+    let assignment = arguments.assignment.open(&workspace)?;
+    let all = variants(&assignment)?.list;
     let of_kind =
         |kind| all.iter().filter(move |variant| variant.kind == kind).map(|variant| variant.source.clone());
     let (right, wrong): (Vec<String>, Vec<String>) =
@@ -51,14 +51,13 @@ fn make(arguments: &Arguments) -> Result<()> {
         let source = match index % 10 {
             0..=3 => right[(4 * turn + index % 10) % right.len()].clone(),
             4..=7 => wrong[(4 * turn + index % 10) % wrong.len()].clone(),
-            8 if turn % 2 == 0 => std::fs::read_to_string(workspace.student_file())
-                .map_err(|error| Error::file(&workspace.student_file(), error))?,
+            8 if turn % 2 == 0 => assignment.folder.starter()?,
             8 => "fn main( {".to_owned(),
             _ => hostile[turn % hostile.len()].clone(),
         };
         let folder = arguments.out.join(format!("student{index:03}"));
         create_folder(&folder)?;
-        let file = folder.join("render_pt.rs");
+        let file = folder.join(assignment.rubric.submission.name());
         write_text(&file, &format!("// {index}\n{source}"))?;
     }
     println!("{}: {} submissions", arguments.out.display(), arguments.count);

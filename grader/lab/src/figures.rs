@@ -6,9 +6,11 @@ use arty::math::Rgb;
 use arty::scene::file::load;
 use font8x8::UnicodeFonts;
 
+use harness::assignment_folder::AssignmentFolder;
 use harness::build::SubmissionProgram;
 use harness::workspace::Workspace;
 use judge::reference::picture;
+use serde::Deserialize;
 use verdict::error::Result;
 
 /// Width and height of a panel in pixels, in the proportions of the command on the sheet.
@@ -20,52 +22,43 @@ const STRIP: usize = 24;
 /// Gap between panels in pixels.
 const GAP: usize = 8;
 
-/// One rendering with its label.
-pub struct Panel {
-    scene: &'static str,
-    settings: Settings,
-    samples: u64,
-    label: &'static str,
+/// Contents of `figures.yml`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FiguresFile {
+    figures: Vec<Figure>,
 }
 
-const fn panel(
-    scene: &'static str,
+/// Pictures of the solution, side by side.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Figure {
+    /// Name of the file, `figure1.png`.
+    pub file: String,
+    /// The pictures, from left to right.
+    pub panels: Vec<Panel>,
+}
+
+/// One rendering with its label.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Panel {
+    scene: String,
     technique: Technique,
     max_bounces: u32,
+    /// Samples per pixel.
     samples: u64,
-    label: &'static str,
-) -> Panel {
-    Panel { scene, settings: Settings { technique, max_bounces }, samples, label }
+    label: String,
 }
 
-/// File names and panels of all figures.
-pub const FIGURES: [(&str, &[Panel]); 3] = [
-    (
-        "figure1.png",
-        &[
-            panel("cornell_box", Technique::Bsdf, 8, 100, "BSDF sampling, 100 spp"),
-            panel("cornell_box", Technique::Nee, 1, 10, "direct light only, 10 spp"),
-            panel("cornell_box", Technique::Nee, 8, 10, "NEE, 10 spp"),
-        ],
-    ),
-    (
-        "figure2.png",
-        &[
-            panel("cornell_box_water", Technique::Bsdf, 8, 64, "water: BSDF sampling, 64 spp"),
-            panel("cornell_box_water", Technique::Nee, 8, 64, "water: NEE, 64 spp"),
-            panel("cornell_box_point", Technique::Bsdf, 8, 64, "point: BSDF sampling, 64 spp"),
-            panel("cornell_box_point", Technique::Nee, 8, 64, "point: NEE, 64 spp"),
-        ],
-    ),
-    (
-        "figure3.png",
-        &[
-            panel("cornell_box_glossy", Technique::Bsdf, 8, 16, "BSDF sampling, 16 spp"),
-            panel("cornell_box_glossy", Technique::Nee, 8, 16, "NEE, 16 spp"),
-            panel("cornell_box_glossy", Technique::Mis, 8, 16, "MIS, 16 spp"),
-        ],
-    ),
-];
+/// The figures of an assignment; none if it has no `figures.yml`.
+///
+/// # Errors
+/// If the file is malformed.
+pub fn figures(assignment: &AssignmentFolder) -> Result<Vec<Figure>> {
+    let file = assignment.figures_file();
+    Ok(if file.is_file() { arty::yaml::read::<FiguresFile>(&file)?.0.figures } else { Vec::new() })
+}
 
 /// Renders the panels of a figure side by side.
 ///
@@ -78,9 +71,10 @@ pub fn render(
     seed: u64,
 ) -> Result<Image> {
     let mut pictures = Vec::new();
-    for Panel { scene, settings, samples, label } in panels {
+    for Panel { scene, technique, max_bounces, samples, label } in panels {
         let description = load(&workspace.scene_file(scene))?.description;
-        pictures.push((picture(program, &description, *settings, PANEL, *samples, seed)?, *label));
+        let settings = Settings { technique: *technique, max_bounces: *max_bounces };
+        pictures.push((picture(program, &description, settings, PANEL, *samples, seed)?, label.as_str()));
     }
     Ok(side_by_side(&pictures))
 }

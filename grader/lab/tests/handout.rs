@@ -5,8 +5,9 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use harness::assignment::Assignment;
 use harness::workspace::Workspace;
-use lab::handout::Secrets;
+use lab::handout::secrets;
 use verdict::check::{CheckKind, Verdict, WhyNot};
 use verdict::report::Report;
 
@@ -14,8 +15,12 @@ fn workspace() -> Workspace {
     Workspace::find().expect("the tests run inside the checkout")
 }
 
+fn assignment() -> Assignment {
+    Assignment::open(&workspace(), "05-nee-mis").expect("it is sound")
+}
+
 fn solution() -> String {
-    std::fs::read_to_string(workspace().solution_file()).expect("the solution is there")
+    assignment().solution().expect("the solution is there")
 }
 
 fn lab(arguments: &[&str]) -> Output {
@@ -76,7 +81,7 @@ fn a_handout_holds_nothing_of_the_solution() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let out = folder.path().join("handout");
     make(&out);
-    let secrets = Secrets::of(&solution()).expect("the solution has task blocks");
+    let secrets = secrets(&assignment()).expect("the solution differs");
     assert!(secrets.find(&solution()).is_some(), "the search finds what it is for");
     let mut files = Vec::new();
     files_below(&out, &mut files);
@@ -100,9 +105,8 @@ fn a_handout_holds_nothing_of_the_solution() {
 
 #[test]
 fn a_starting_file_with_the_solution_in_it_is_not_handed_out() {
-    let workspace = workspace();
-    let secrets = Secrets::of(&solution()).expect("the solution has task blocks");
-    let starter = std::fs::read_to_string(workspace.student_file()).expect("it is there");
+    let secrets = secrets(&assignment()).expect("the solution differs");
+    let starter = std::fs::read_to_string(assignment().student_file()).expect("it is there");
     assert_eq!(secrets.find(&starter), None);
     let block = "let p_ne = p_light(scene) * sample.pdf_area * distance * distance / sample.cos_light;";
     let spoilt = starter.replacen("// END 5.1a", &format!("{block}\n// END 5.1a"), 1);
@@ -131,7 +135,7 @@ fn a_handout_builds_and_grades_by_itself() {
     let graded = report(&folder);
     assert_eq!(graded.points.earned, 0.0, "{:#?}", graded.tasks);
 
-    let file = workspace().solution_file().display().to_string();
+    let file = assignment().solution_file().display().to_string();
     let right = cargo(&folder, &["grade", &file, "--no-report"]);
     assert_eq!(right.status.code(), Some(0), "{}", text(&right.stderr));
     let graded = report(&folder);

@@ -3,7 +3,8 @@
 
 use std::collections::BTreeSet;
 
-use harness::build::{Framework, compile};
+use harness::assignment::Assignment;
+use harness::build::compile;
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
 use judge::grade::{Options, grade};
@@ -21,12 +22,12 @@ fn workspace() -> Workspace {
     Workspace::find().expect("the tests run inside the checkout")
 }
 
+fn assignment() -> Assignment {
+    Assignment::open(&workspace(), "05-nee-mis").expect("it is sound")
+}
+
 fn all() -> Variants {
-    let workspace = workspace();
-    let assignment = workspace.assignment("05-nee-mis");
-    let rubric = assignment.rubric().expect("it is sound");
-    variants(&workspace, &assignment, &rubric)
-        .expect("each replacement fits the solution, each task the rubric")
+    variants(&assignment()).expect("each replacement fits the solution, each task the rubric")
 }
 
 #[test]
@@ -52,7 +53,7 @@ fn there_are_a_dozen_correct_variants_and_no_two_variants_are_equal() {
 
 #[test]
 fn every_variant_compiles() {
-    let framework = Framework::build(&workspace()).expect("the framework builds");
+    let framework = assignment().framework(&workspace()).expect("the framework builds");
     for variant in all().list {
         if let Err(failure) = compile(&framework, &variant.source, &Limits::default()).expect("rustc runs") {
             panic!("{}:\n{}", variant.id, failure.messages);
@@ -62,7 +63,7 @@ fn every_variant_compiles() {
 
 #[test]
 fn the_kill_matrix_lists_all_variants() {
-    let path = workspace().assignment("05-nee-mis").kill_matrix();
+    let path = assignment().folder.kill_matrix();
     let table = std::fs::read_to_string(&path).expect("the table is there");
     let listed: Vec<&str> = table
         .lines()

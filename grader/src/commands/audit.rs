@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use harness::build::{Framework, compile};
+use super::intake::wanted;
+use harness::assignment::AssignmentOption;
+use harness::build::compile;
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
 use present::print_audit;
@@ -16,8 +18,10 @@ use verdict::output;
 /// hit of a path; then one sentence for each that is wrong.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// A render_pt.rs, or a folder with one in it [default: the student file in the skeleton]
+    /// A source file, or a folder with one in it [default: the student file of the assignment]
     submission: Option<PathBuf>,
+    #[command(flatten)]
+    assignment: AssignmentOption,
     /// Seed of the random numbers
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -27,9 +31,10 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
-    let path = arguments.submission.clone().unwrap_or_else(|| workspace.student_file());
-    let submission = intake::read(&path)?;
-    let program = compile(&Framework::build(workspace)?, &submission.source, &Limits::default())?
+    let assignment = arguments.assignment.open(workspace)?;
+    let path = arguments.submission.clone().unwrap_or_else(|| assignment.student_file());
+    let submission = intake::read(&path, &wanted(&assignment)?)?;
+    let program = compile(&assignment.framework(workspace)?, &submission.source, &Limits::default())?
         .map_err(|failure| Error::Input(format!("the submission does not compile:\n{}", failure.messages)))?;
     let audit = judge::audit::audit(&program, arguments.seed)?;
     if let Some(file) = &arguments.json {

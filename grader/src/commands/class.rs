@@ -15,7 +15,7 @@ use classroom::class::shard::{ClassHash, Shard, ShardFile};
 use classroom::class::{Accepted, Class, RunOptions, has_results, run as grade_all};
 use classroom::lock::FolderLock;
 use classroom::policy::{Manifest, Policy, Receipt, parse_received};
-use harness::assignment::Assignment;
+use harness::assignment::AssignmentOption;
 use harness::workspace::Workspace;
 use judge::grade::Options;
 use present::streams::note;
@@ -49,7 +49,7 @@ pub(super) struct Arguments {
     #[command(flatten)]
     systems: Systems,
     #[command(flatten)]
-    assignment: Assignment,
+    assignment: AssignmentOption,
     /// Folder for the results; created if missing
     #[arg(long, value_name = "DIR", default_value = "class-report")]
     out: PathBuf,
@@ -91,8 +91,8 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
     let out = arguments.shard.map_or_else(|| arguments.out.clone(), |shard| shard.folder(&arguments.out));
     arguments.check_earlier_results(&out)?;
-    let rubric = arguments.assignment.rubric(workspace)?;
-    let policy = policy(workspace, &arguments.assignment.name, &rubric, arguments.course.as_deref())?;
+    let assignment = arguments.assignment.open(workspace)?;
+    let policy = policy(&assignment, arguments.course.as_deref())?;
     let mut class = arguments.class(policy.as_ref())?;
     output::create_folder(&out.join("submissions"))?;
     let _lock = match arguments.shard {
@@ -105,11 +105,11 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
         output::remove(&ShardFile::path(&out))?;
         class.keep(*shard);
     }
-    let options = arguments.options(out.clone())?;
+    let options = arguments.options(&assignment.name, out.clone())?;
     let tables = Tables {
         systems: &arguments.systems,
-        assignment: &arguments.assignment.name,
-        rubric: &rubric,
+        assignment: &assignment.name,
+        rubric: &assignment.rubric,
         out: &out,
         page: !arguments.no_report,
     };
@@ -179,10 +179,10 @@ impl Arguments {
         tables.into_iter().filter_map(Option::as_deref).collect()
     }
 
-    fn options(&self, out: PathBuf) -> Result<RunOptions> {
+    fn options(&self, assignment: &str, out: PathBuf) -> Result<RunOptions> {
         Ok(RunOptions {
             grade: Options {
-                assignment: self.assignment.name.clone(),
+                assignment: assignment.to_owned(),
                 seed: self.seed.value()?,
                 threads: 1,
                 only: self.only.clone(),

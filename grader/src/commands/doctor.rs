@@ -4,7 +4,8 @@ use std::fmt::Display;
 use std::path::Path;
 use std::process::ExitCode;
 
-use super::intake::reader;
+use super::intake::{reader, wanted};
+use harness::assignment::{Assignment, AssignmentOption};
 use harness::build::{Framework, compile};
 use harness::host_process::HostProcess;
 use harness::sandbox::{Layers, Level, Limits, Machine, linker};
@@ -16,16 +17,20 @@ use verdict::report::Sandbox;
 
 /// Check whether this machine can grade: compiler, linker and sandbox, and how to strengthen the sandbox
 #[derive(clap::Args)]
-pub(super) struct Arguments {}
+pub(super) struct Arguments {
+    #[command(flatten)]
+    assignment: AssignmentOption,
+}
 
-/// Compiles and starts the student file of the skeleton as a grade would, and prints what was found.
-pub(super) fn run(workspace: &Workspace) -> Result<ExitCode> {
+/// Compiles and starts the student file of the assignment as a grade would, and prints what was found.
+pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
     let limits = Limits::default();
     print_machine(workspace)?;
-    let framework = Framework::build(workspace)?;
+    let assignment = arguments.assignment.open(workspace)?;
+    let framework = assignment.framework(workspace)?;
     print_build(&framework, &limits)?;
     let possible = Machine::here().layers();
-    let (compiler, host) = try_starter(workspace, &framework, &limits)?.unwrap_or((possible, possible));
+    let (compiler, host) = try_starter(&assignment, &framework, &limits)?.unwrap_or((possible, possible));
     print_sandbox(possible, compiler, host)?;
     Ok(ExitCode::SUCCESS)
 }
@@ -51,11 +56,11 @@ fn print_build(framework: &Framework, limits: &Limits) -> Result<()> {
 
 /// Sandbox layers of the compiler and of the student file's process; `None` if the file does not compile.
 fn try_starter(
-    workspace: &Workspace,
+    assignment: &Assignment,
     framework: &Framework,
     limits: &Limits,
 ) -> Result<Option<(Layers, Layers)>> {
-    let starter = reader().read(&workspace.student_file())?;
+    let starter = reader().read(&assignment.student_file(), &wanted(assignment)?)?;
     match compile(framework, &starter.source, limits)? {
         Ok(program) => {
             let process = HostProcess::start(&program, 1)?;

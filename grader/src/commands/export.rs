@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use super::intake::reader;
+use super::intake::source_of;
 use present::export::{Export, Format, Received, Surroundings};
 use present::streams::{note, print};
 use verdict::error::{Error, Result};
@@ -74,5 +74,5 @@ fn append(path: &Path, text: &str) -> Result<()> {
 /// What the formats need to know beside the report: the environment, and the lines of its tasks if its source is still
 /// there.
 fn surroundings_of(report: &Report) -> Surroundings {
-    Surroundings::here(report, reader().read(report.submission.path.as_ref()).ok().as_ref())
+    Surroundings::here(report, source_of(report).as_ref())
 }

@@ -33,17 +33,17 @@ pub(super) fn complete(
         note("measuring error against run time, which gives no points (--no-report skips it) …");
         let (seed, Options { threads, .. }) = (grader.public_seed(), grader.options());
         let solution = grader.oracle().map(Oracle::program).transpose()?;
-        let convergence = brief(workspace, program, solution.as_deref(), seed)?;
+        let convergence = brief(workspace, grader.rubric(), program, solution.as_deref(), seed)?;
         print_line("\nError against run time (gives no points)")?;
         print_sentences(&convergence);
         report.convergence = Some(convergence);
-        shown = pictures(workspace, program, report, *threads, seed, MAX_PICTURES)?;
+        shown = pictures(workspace, grader.rubric(), program, report, *threads, seed, MAX_PICTURES)?;
         report.images = shown.iter().flat_map(Picture::errors).collect();
     }
     report.save(file)?;
     save(&shown, &pictures_beside(file))?;
     // Students have no solution, and only need their own edition.
-    let is_staff = workspace.solution_file().is_file();
+    let is_staff = workspace.is_staff();
     let readers = if is_staff { Readers::Staff(None) } else { Readers::Student };
     write_pages(report, &shown, file, readers)?;
     let [student, tutor] = pages_beside(file);

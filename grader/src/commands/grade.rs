@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use super::intake::reader;
+use super::intake::{reader, wanted};
 use super::lateness::{Received, When};
 use super::min_sandbox::MinSandbox;
 use super::seed::Seed;
 use super::{export, full_report, watch};
-use ::intake::{Intake, Refusal};
+use ::intake::{Intake, Refusal, Wanted};
 use classroom::marks::Marks;
-use harness::assignment::Assignment;
+use harness::assignment::AssignmentOption;
 use harness::build::{Framework, SubmissionProgram};
 use harness::workspace::Workspace;
 use judge::grade::{Grader, Options};
@@ -26,13 +26,13 @@ use verdict::submission::IntakeFinding;
 /// Grade one submission: build it, run the checks, print the points and write report.json
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// A render_pt.rs, or a folder, .zip, .tar.gz or git repository with one in it [default: the student file in the skeleton]
+    /// A source file, or a folder, .zip, .tar.gz or git repository with one in it [default: the student file of the assignment]
     submission: Option<PathBuf>,
     /// Source to grade if there are several: the end of its path, in archives too
     #[arg(long, value_name = "PATH", conflicts_with = "watch")]
     source: Option<String>,
     #[command(flatten)]
-    assignment: Assignment,
+    assignment: AssignmentOption,
     /// Folder for report.json, report.html (for the student) and report-tutor.html; created if missing
     #[arg(long, value_name = "DIR", default_value = "report")]
     out: PathBuf,
@@ -44,7 +44,7 @@ pub(super) struct Arguments {
     /// Number of threads for the submission [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: Option<u16>,
-    /// Report 0 points for a submission without a render_pt.rs instead of failing (for servers)
+    /// Report 0 points for a submission without a source file instead of failing (for servers)
     #[arg(long)]
     missing_is_zero: bool,
     /// Exit with status 1 if automatic grading gives fewer points than this
@@ -76,11 +76,12 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
-    let options = arguments.options()?;
-    let path = relative(arguments.submission.clone().unwrap_or_else(|| workspace.student_file()));
-    let received = arguments.when.read(workspace, &arguments.assignment.name)?;
-    let starter = workspace.assignment(&arguments.assignment.name).starter()?;
-    let intake = arguments.take(&starter, &path)?;
+    let assignment = arguments.assignment.open(workspace)?;
+    let options = arguments.options(&assignment.name)?;
+    let path = relative(arguments.submission.clone().unwrap_or_else(|| assignment.student_file()));
+    let received = arguments.when.read(&assignment)?;
+    let wanted = wanted(&assignment)?;
+    let intake = arguments.take(&wanted, &path)?;
     let file = arguments.out.join("report.json");
     prepare(arguments, &file)?;
     let marks = Marks::open(&arguments.out)?;
@@ -93,7 +94,7 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
         progress.say("building the framework that submissions are linked against: once, takes a minute …");
     }
     if arguments.watch {
-        watch::watch(workspace, &path, &options, &file)?;
+        watch::watch(workspace, &path, &wanted, &options, &file)?;
     }
     for note in &intake.notes {
         progress.say(&format!("note: {note}"));
@@ -130,15 +131,15 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
 }
 
 impl Arguments {
-    /// Takes in the submission at `path`. `starter` is the text of the assignment's starting file.
+    /// Takes in the submission at `path`.
     ///
     /// # Errors
     /// If nothing is there or it cannot be read, unless that means 0 points (`--missing-is-zero`), and if `--source` names
     /// nothing. Any other refusal is a fault of the submission, which then has 0 points.
-    fn take(&self, starter: &str, path: &Path) -> Result<Intake> {
-        let intake = reader().take(&[path.to_owned()], starter, self.source.as_deref())?;
+    fn take(&self, wanted: &Wanted, path: &Path) -> Result<Intake> {
+        let intake = reader().take(&[path.to_owned()], wanted, self.source.as_deref())?;
         match &intake.outcome {
-            Err(refusal @ (Refusal::MissingFile(_) | Refusal::Unreadable(..))) if !self.missing_is_zero => {
+            Err(refusal @ (Refusal::MissingFile(..) | Refusal::Unreadable(..))) if !self.missing_is_zero => {
                 Err(Error::file(path, refusal))
             }
             Err(refusal @ Refusal::NotThere(..)) => Err(Error::file(path, refusal)),
@@ -150,9 +151,9 @@ impl Arguments {
         if self.all { Detail::All } else { Detail::Next }
     }
 
-    fn options(&self) -> Result<Options> {
+    fn options(&self, assignment: &str) -> Result<Options> {
         Ok(Options {
-            assignment: self.assignment.name.clone(),
+            assignment: assignment.to_owned(),
             seed: self.seed.value()?,
             threads: self.jobs.map_or_else(rayon::current_num_threads, usize::from),
             only: self.only.clone(),

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use super::intake::reader;
+use super::intake::source_of;
 use harness::workspace::Workspace;
 use present::streams::{note, print_line};
 use present::words;
@@ -30,7 +30,7 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
     }
     let report = Report::load(&arguments.report)?;
     let path = PathBuf::from(&report.submission.path);
-    let source = reader().read(&path).ok();
+    let source = source_of(&report);
     if source.as_ref().is_some_and(|now| now.hash() != report.submission.hash) {
         note(format_args!("note: {} has changed since this grade: `cargo grade`", path.display()));
     }

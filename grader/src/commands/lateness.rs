@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::policy::policy;
 use classroom::policy::{Policy, Receipt, Standing, parse_received};
-use harness::workspace::Workspace;
+use harness::assignment::Assignment;
 use verdict::error::{Error, Result};
 
 /// The options that say when a submission was received.
@@ -33,10 +33,9 @@ impl When {
     ///
     /// # Errors
     /// If a file or the time is wrong, or the rubric has no late policy.
-    pub(super) fn read(&self, workspace: &Workspace, assignment: &str) -> Result<Option<Received>> {
+    pub(super) fn read(&self, assignment: &Assignment) -> Result<Option<Received>> {
         let Some(text) = &self.received_at else { return Ok(None) };
-        let rubric = workspace.assignment(assignment).rubric()?;
-        let policy = policy(workspace, assignment, &rubric, self.course.as_deref())?;
+        let policy = policy(assignment, self.course.as_deref())?;
         let policy =
             policy.ok_or_else(|| Error::Input("the rubric has no `policy` for late submissions".into()))?;
         let time = parse_received(text, policy.zone())

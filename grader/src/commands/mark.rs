@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use super::intake::reader;
+use super::intake::{reader, wanted};
 use super::marks_table::{Entry, entries};
 use classroom::class::gradebook::{Row, load_rows};
 use classroom::class::lookup::rows_of;
 use classroom::marks::{Mark, Marks, fingerprint, why_not};
-use harness::assignment::Assignment;
+use harness::assignment::{Assignment, AssignmentOption};
 use harness::workspace::Workspace;
 use present::page::{Readers, pages_beside, pictures_beside, write_pages};
 use present::pictures::load;
@@ -48,14 +48,15 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "DIR", default_value = "report")]
     out: PathBuf,
     #[command(flatten)]
-    assignment: Assignment,
+    assignment: AssignmentOption,
 }
 
 pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
-    let rubric = arguments.assignment.rubric(workspace)?;
-    let entries = arguments.entries(&rubric)?;
+    let assignment = arguments.assignment.open(workspace)?;
+    let rubric = &assignment.rubric;
+    let entries = arguments.entries(rubric)?;
     for Entry { at, task, points, .. } in &entries {
-        if let Some(why) = why_not(&rubric, task, *points) {
+        if let Some(why) = why_not(rubric, task, *points) {
             return Err(Error::Input(format!("{at}{why}")));
         }
     }
@@ -69,7 +70,7 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
             "there is no class.json: --from needs the results of a class",
         ));
     }
-    entries.iter().try_for_each(|entry| mark_alone(arguments, workspace, entry))?;
+    entries.iter().try_for_each(|entry| mark_alone(arguments, &assignment, entry))?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -120,10 +121,10 @@ fn mark_in_class(out: &Path, rows: &[Row], entries: &[Entry]) -> Result<ExitCode
 }
 
 /// Records a mark of a submission that was graded alone, and adds it to its report and pages.
-fn mark_alone(arguments: &Arguments, workspace: &Workspace, entry: &Entry) -> Result<()> {
+fn mark_alone(arguments: &Arguments, assignment: &Assignment, entry: &Entry) -> Result<()> {
     let path = PathBuf::from(&entry.student);
-    let starter = workspace.assignment(&arguments.assignment.name).starter()?;
-    let intake = reader().take(std::slice::from_ref(&path), &starter, arguments.source.as_deref())?;
+    let wanted = wanted(assignment)?;
+    let intake = reader().take(std::slice::from_ref(&path), &wanted, arguments.source.as_deref())?;
     for explanation in &intake.explanations {
         note(format_args!("{}: {}", harmless(&explanation.name), count(explanation.bytes, "byte")));
     }

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use super::class_tables::{Systems, Tables, exit_status};
 use classroom::class::{merge, shard};
 use classroom::lock::FolderLock;
-use harness::assignment::Assignment;
+use harness::assignment::AssignmentOption;
 use harness::workspace::Workspace;
 use present::streams::note;
 use verdict::error::Result;
@@ -20,7 +20,7 @@ pub(super) struct Arguments {
     #[command(flatten)]
     systems: Systems,
     #[command(flatten)]
-    assignment: Assignment,
+    assignment: AssignmentOption,
     /// Folder for the results of the class; marks of tutors are stored there
     #[arg(long, value_name = "DIR", default_value = "class-report")]
     out: PathBuf,
@@ -31,15 +31,16 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
     let out = &arguments.out;
-    let rubric = arguments.assignment.rubric(workspace)?;
+    let assignment = arguments.assignment.open(workspace)?;
+    let rubric = &assignment.rubric;
     let folders = if arguments.shards.is_empty() { shard::folders(out)? } else { arguments.shards.clone() };
     output::create_folder(out)?;
     let _lock = FolderLock::of_results(out)?;
     let outcome = merge(&folders, out, rubric.policy.as_ref())?;
     let tables = Tables {
         systems: &arguments.systems,
-        assignment: &arguments.assignment.name,
-        rubric: &rubric,
+        assignment: &assignment.name,
+        rubric,
         out,
         page: !arguments.no_report,
     };

@@ -87,7 +87,7 @@ impl Arguments {
             Command::Grade(arguments) => grade::run(arguments, &workspace()?),
             Command::Hint(arguments) => hint::run(arguments, &workspace()?),
             Command::Audit(arguments) => audit::run(arguments, &workspace()?),
-            Command::Doctor(_) => doctor::run(&workspace()?),
+            Command::Doctor(arguments) => doctor::run(arguments, &workspace()?),
             Command::Class(arguments) => class::run(arguments, &workspace()?),
             Command::Pack(arguments) => pack::run(arguments, &workspace()?),
             Command::Converge(arguments) => converge::run(arguments, &workspace()?),
@@ -113,7 +113,7 @@ const STAFF_OPTIONS: [&str; 4] = ["missing_is_zero", "received_at", "course", "s
 /// shown.
 fn command_line() -> clap::Command {
     let command = Arguments::command();
-    if Workspace::find().is_ok_and(|workspace| workspace.solution_file().is_file()) {
+    if Workspace::find().is_ok_and(|workspace| workspace.is_staff()) {
         return command;
     }
     let command = STAFF_COMMANDS

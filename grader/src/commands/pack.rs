@@ -8,20 +8,20 @@ use jiff::Timestamp;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
-use super::intake::reader;
+use super::intake::{reader, wanted};
 use super::lateness::standing;
 use super::policy::policy;
 use ::intake::md5_of;
 use classroom::policy::Receipt;
-use harness::assignment::Assignment;
-use harness::build::{Framework, compile};
+use harness::assignment::AssignmentOption;
+use harness::build::compile;
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
 use present::streams::{note, print_line};
 use present::words::count;
 use verdict::error::{Error, Result};
 use verdict::output;
-use verdict::submission::{FILE_NAME, Submission};
+use verdict::submission::Submission;
 
 /// Pack your submission with your explanation, check that it compiles, and print its MD5 checksum
 #[derive(clap::Args)]
@@ -41,20 +41,22 @@ pub(super) struct Arguments {
     #[arg(long, default_value = "")]
     student: String,
     #[command(flatten)]
-    assignment: Assignment,
+    assignment: AssignmentOption,
     /// Deadline and extensions [default: course.yml beside the rubric, if there is one]
     #[arg(long, value_name = "FILE.yml")]
     course: Option<PathBuf>,
 }
 
 pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
-    let rubric = arguments.assignment.rubric(workspace)?;
-    let policy = policy(workspace, &arguments.assignment.name, &rubric, arguments.course.as_deref())?;
-    let file = arguments.file.clone().unwrap_or_else(|| workspace.student_file());
-    let submission = reader().read(&file)?;
-    let entries = entries(&submission, &arguments.explanation)?;
+    let assignment = arguments.assignment.open(workspace)?;
+    let policy = policy(&assignment, arguments.course.as_deref())?;
+    let file = arguments.file.clone().unwrap_or_else(|| assignment.student_file());
+    let submission = reader().read(&file, &wanted(&assignment)?)?;
+    let rubric = &assignment.rubric;
+    let entries = entries(rubric.submission.name(), &submission, &arguments.explanation)?;
     note(format_args!("compiling {} …", file.display()));
-    if let Err(failure) = compile(&Framework::build(workspace)?, &submission.source, &Limits::default())? {
+    if let Err(failure) = compile(&assignment.framework(workspace)?, &submission.source, &Limits::default())?
+    {
         note(&failure.messages);
         if !arguments.anyway {
             return Err(Error::Input("not packed: it does not compile (--anyway packs it)".to_owned()));
@@ -79,8 +81,8 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
 }
 
 /// Names and contents of the files in the archive.
-fn entries(submission: &Submission, explanations: &[PathBuf]) -> Result<Vec<(String, Vec<u8>)>> {
-    let mut entries = vec![(FILE_NAME.to_owned(), submission.source.clone().into_bytes())];
+fn entries(name: &str, submission: &Submission, explanations: &[PathBuf]) -> Result<Vec<(String, Vec<u8>)>> {
+    let mut entries = vec![(name.to_owned(), submission.source.clone().into_bytes())];
     for path in explanations {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if !is_explanation(path) {

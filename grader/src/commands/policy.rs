@@ -3,24 +3,18 @@
 use std::path::Path;
 
 use classroom::policy::{Course, Policy};
-use harness::workspace::Workspace;
+use harness::assignment::Assignment;
 use verdict::error::{Error, Result};
-use verdict::rubric::Rubric;
 
 /// Combines the rules of a rubric with the dates of a course: those of the file `course`, or else of the `course.yml` beside
 /// the rubric. `None` if the rubric has no late policy.
 ///
 /// # Errors
 /// If the dates are wrong, or `course` is given for a rubric without a late policy.
-pub(super) fn policy(
-    workspace: &Workspace,
-    assignment: &str,
-    rubric: &Rubric,
-    course: Option<&Path>,
-) -> Result<Option<Policy>> {
-    let beside = workspace.assignment(assignment).course_file();
+pub(super) fn policy(assignment: &Assignment, course: Option<&Path>) -> Result<Option<Policy>> {
+    let beside = assignment.folder.course_file();
     let file = course.map(Path::to_owned).or_else(|| beside.is_file().then_some(beside));
-    let Some(rules) = &rubric.policy else {
+    let Some(rules) = &assignment.rubric.policy else {
         return match course {
             Some(path) => Err(Error::file(path, "the rubric has no `policy` that these dates belong to")),
             None => Ok(None),

@@ -3,11 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-use super::intake::reader;
+use super::intake::{reader, wanted};
 use arty::integrator::Technique;
+use harness::assignment::{Assignment, AssignmentOption};
 use serde::Serialize;
 
-use harness::build::{Framework, compile};
+use harness::build::compile;
 use harness::job::JobError;
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
@@ -24,8 +25,10 @@ use verdict::rubric::EmissionOnHit;
 /// Replay one path of a submission and show every call it makes; reports give this command for their findings
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// A render_pt.rs, or a folder with one in it [default: the student file in the skeleton]
+    /// A source file, or a folder with one in it [default: the student file of the assignment]
     submission: Option<PathBuf>,
+    #[command(flatten)]
+    assignment: AssignmentOption,
     /// Name of a scene in scenes/ or scenes/extreme/, or stability-room
     #[arg(long)]
     scene: String,
@@ -85,7 +88,8 @@ struct Replay<'a> {
 }
 
 pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
-    let path = arguments.submission.clone().unwrap_or_else(|| workspace.student_file());
+    let assignment = arguments.assignment.open(workspace)?;
+    let path = arguments.submission.clone().unwrap_or_else(|| assignment.student_file());
     let mut target = arguments.target()?;
     let description = load(workspace, &target)?;
     // As `cargo arty` renders it.
@@ -97,10 +101,10 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
     }
     target.size = [width, height];
     if arguments.view {
-        return view(&target, &path, workspace);
+        return view(&target, &path, workspace, &assignment);
     }
-    let submission = reader().read(&path)?;
-    let program = compile(&Framework::build(workspace)?, &submission.source, &Limits::default())?
+    let submission = reader().read(&path, &wanted(&assignment)?)?;
+    let program = compile(&assignment.framework(workspace)?, &submission.source, &Limits::default())?
         .map_err(|failure| Error::Input(format!("the submission does not compile:\n{}", failure.messages)))?;
     let submission = follow(&program, &target, &description).map_err(|error| match error {
         JobError::Submission(fault) => Error::Input(format!("the submission: {fault}")),
@@ -108,10 +112,10 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
     })?;
     let (solution, left_out) = if arguments.student {
         (None, Some("the solution's path is skipped (--student)"))
-    } else if !workspace.solution_file().is_file() {
+    } else if !assignment.has_solution() {
         (None, Some("the solution's path is skipped: this checkout does not have the solution"))
     } else {
-        let program = Oracle::required(workspace)?;
+        let program = Oracle::required(workspace, &assignment)?;
         let path = follow(&program, &target, &description);
         (Some(path.map_err(|error| error.of_trusted("the solution"))?), None)
     };
@@ -132,11 +136,17 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
 }
 
 /// Opens the window, a program of its own that is built with the student file, and waits until it is closed.
-fn view(target: &ReplayTarget, submission: &Path, workspace: &Workspace) -> Result<ExitCode> {
-    let file = if submission.is_dir() { submission.join("render_pt.rs") } else { submission.to_owned() };
+fn view(
+    target: &ReplayTarget,
+    submission: &Path,
+    workspace: &Workspace,
+    assignment: &Assignment,
+) -> Result<ExitCode> {
+    let student_file = assignment.student_file();
+    let name = assignment.rubric.submission.name();
+    let file = if submission.is_dir() { submission.join(name) } else { submission.to_owned() };
     let same = |path: &Path| path.canonicalize().ok();
-    if same(&file).is_none_or(|file| Some(file) != same(&workspace.student_file())) {
-        let student_file = workspace.student_file();
+    if same(&file).is_none_or(|file| Some(file) != same(&student_file)) {
         return Err(Error::Input(format!("--view: the window shows {} only", student_file.display())));
     }
     let is_plain = (target.scale, target.emission, target.emission_on_hit) == (1.0, 1.0, EmissionOnHit::On);

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use classroom::class::gradebook::load_rows;
 use classroom::class::similar::{Archive, Earlier, Starter, describe, export, groups, page};
-use harness::assignment::Assignment;
+use harness::assignment::AssignmentOption;
 use harness::workspace::Workspace;
 use present::streams::{note, print};
 use present::words::count;
@@ -23,15 +23,16 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "DIR")]
     export: Option<PathBuf>,
     #[command(flatten)]
-    assignment: Assignment,
+    assignment: AssignmentOption,
     /// Folder with the results of the class
     #[arg(long, value_name = "DIR", default_value = "class-report")]
     out: PathBuf,
 }
 
 pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
-    let (name, out) = (&arguments.assignment.name, &arguments.out);
-    let starter = workspace.assignment(name).starter()?;
+    let assignment = arguments.assignment.open(workspace)?;
+    let (name, out) = (&assignment.name, &arguments.out);
+    let starter = assignment.folder.starter()?;
     let own = Archive::load(out, name)?;
     let earlier = Earlier::load(&arguments.earlier, name)?;
     let groups = groups(&own.fingerprints, &earlier.fingerprints);

@@ -6,6 +6,7 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 use super::intake::reader;
+use ::intake::Wanted;
 use notify_debouncer_mini::new_debouncer;
 use notify_debouncer_mini::notify::{self, RecursiveMode};
 
@@ -29,7 +30,13 @@ const MESSAGE_LINES: usize = 24;
 ///
 /// # Errors
 /// If the folder of the submission cannot be watched.
-pub(super) fn watch(workspace: &Workspace, path: &Path, options: &Options, file: &Path) -> Result<()> {
+pub(super) fn watch(
+    workspace: &Workspace,
+    path: &Path,
+    wanted: &Wanted,
+    options: &Options,
+    file: &Path,
+) -> Result<()> {
     let (sender, changes) = channel();
     let trouble =
         |error: notify::Error| Error::Harness(format!("{}: cannot be watched: {error}", path.display()));
@@ -45,7 +52,7 @@ pub(super) fn watch(workspace: &Workspace, path: &Path, options: &Options, file:
     let grader = Grader::new(workspace, options)?;
     let (mut last, mut earlier) = (None, None);
     loop {
-        match reader().read(path) {
+        match reader().read(path, wanted) {
             Ok(submission) if last.as_ref() == Some(&submission.hash()) => {}
             Ok(submission) => {
                 last = Some(submission.hash());

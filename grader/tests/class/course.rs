@@ -9,6 +9,9 @@ use serde_json::Value;
 const RUBRIC: &str = "
 assignment: tiny
 title: One cheap check
+submission: { file: skeleton/src/algorithms/render_pt.rs, contract: path-tracer, solution: solution/src/algorithms/render_pt.rs }
+techniques: [bsdf, nee, mis]
+reference_technique: mis
 policy:
   time_zone: Europe/Berlin
   late: { less_than_hours: 2, factor: 0.8 }

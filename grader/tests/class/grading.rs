@@ -272,7 +272,9 @@ fn a_packed_submission_is_the_same_each_time_and_is_taken_in_again() {
     assert_eq!(bytes, std::fs::read(course.path("b.zip")).expect("it is there"));
     let said = String::from_utf8_lossy(&told.stdout).into_owned();
     assert!(said.contains(&intake::md5_of(&bytes)) && said.contains("no longer accepted"), "{said}");
-    let taken = intake::take(&[course.path("a.zip")], "", None).expect("it is there");
+    let [file_name, type_name, starter] = ["render_pt.rs", "PathTracer", ""].map(str::to_owned);
+    let wanted = intake::Wanted { file_name, type_name, starter };
+    let taken = intake::take(&[course.path("a.zip")], &wanted, None).expect("it is there");
     assert_eq!(taken.outcome.expect("it is taken").source, solution());
     assert_eq!(taken.explanations[0].text.as_deref(), Some("because"));
     course.write("broken.rs", "fn main( {");

@@ -62,12 +62,12 @@ impl Report {
     /// The most likely cause that concerns a check of a task.
     fn cause_of(&self, task: &TaskResult, check: &CheckResult) -> Option<&Diagnosis> {
         let concerns = |diagnosis: &&Diagnosis| match &diagnosis.cause {
-            Cause::NothingToCompile | Cause::DoesNotCompile | Cause::NotBegun => true,
+            Cause::NothingToCompile | Cause::DoesNotCompile | Cause::NotBegun { .. } => true,
             Cause::Panics | Cause::TodoLeft => check.reason == Reason::Crash,
             Cause::DoesNotFinish { .. } => check.reason == Reason::Timeout || !check.was_run(),
             Cause::ConstantFactor { .. } => check.id.technique == Technique::Nee,
             Cause::FailedFact(fact) => check.id.technique == fact.technique,
-            Cause::MisNotBegun => check.id.technique == Technique::Mis,
+            Cause::TechniqueNotBegun { technique, .. } => check.id.technique == *technique,
             Cause::BsdfChanged => check.id.technique == Technique::Bsdf,
             Cause::Known { .. } => {
                 !matches!(check.reason, Reason::Crash | Reason::Timeout)

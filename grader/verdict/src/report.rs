@@ -92,6 +92,9 @@ pub struct SubmissionInfo {
     /// Irregularities that intake noted. They cost no points.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<IntakeFinding>,
+    /// Usual name of the source file, by which messages and lines refer to it.
+    #[serde(default)]
+    pub file_name: String,
     /// Lines of its source that print, counted from 1. Printing costs no points.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub prints: Vec<usize>,
@@ -249,9 +252,20 @@ pub enum Cause {
         scenes: Vec<String>,
     },
     /// The submission is the untouched starting file.
-    NotBegun,
-    /// The submission does not use the technique `mis`.
-    MisNotBegun,
+    NotBegun {
+        /// What to begin with; empty if the assignment does not say.
+        hint: String,
+    },
+    /// The submission does not use a technique.
+    TechniqueNotBegun {
+        /// The technique.
+        #[schemars(with = "crate::schema::TechniqueName")]
+        technique: Technique,
+        /// The name by which a source would use it.
+        name: String,
+        /// What to begin with; empty if the assignment does not say.
+        hint: String,
+    },
     /// The technique `bsdf` is no longer plain BSDF sampling.
     BsdfChanged,
 }
@@ -269,8 +283,8 @@ impl Cause {
             Self::TodoLeft => "todo-left",
             Self::DoesNotFinish { .. } => "does-not-finish",
             Self::ConstantFactor { .. } => "constant-factor",
-            Self::NotBegun => "not-begun",
-            Self::MisNotBegun => "mis-not-begun",
+            Self::NotBegun { .. } => "not-begun",
+            Self::TechniqueNotBegun { .. } => "technique-not-begun",
             Self::BsdfChanged => "bsdf-changed",
         }
     }

@@ -66,6 +66,7 @@ pub fn report(text: &str) -> Report {
     Report {
         schema: SCHEMA.to_owned(),
         submission: SubmissionInfo {
+            file_name: "main_file.rs".to_owned(),
             path: text(),
             hash: text(),
             build_failure: None,

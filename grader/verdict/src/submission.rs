@@ -7,15 +7,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
 
-/// Name of the one file that is graded.
-pub const FILE_NAME: &str = "render_pt.rs";
-
 /// The source of a submission.
 #[derive(Clone, Debug)]
 pub struct Submission {
     /// Its path as given on the command line.
     pub path: PathBuf,
-    /// Text of its `render_pt.rs`, with `\n` line endings.
+    /// Text of its source, with `\n` line endings.
     pub source: String,
 }
 

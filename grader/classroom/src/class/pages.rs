@@ -33,8 +33,8 @@ pub(super) fn complete(
     let mut shown = Vec::new();
     if let Some(program) = program {
         let solution = grader.oracle().map(Oracle::program).transpose()?;
-        report.convergence = Some(brief(workspace, program, solution.as_deref(), seed)?);
-        shown = pictures(workspace, program, report, *threads, seed, SCENES)?;
+        report.convergence = Some(brief(workspace, grader.rubric(), program, solution.as_deref(), seed)?);
+        shown = pictures(workspace, grader.rubric(), program, report, *threads, seed, SCENES)?;
     }
     save(&shown, &result_dir.pictures())?;
     match thumbnail(&shown) {

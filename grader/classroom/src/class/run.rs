@@ -20,7 +20,7 @@ use super::{Class, Member};
 use crate::marks::Marks;
 use crate::policy::Policy;
 use harness::workspace::Workspace;
-use intake::Reader;
+use intake::{Reader, Wanted};
 use judge::grade::{Grader, Options};
 use verdict::error::Result;
 use verdict::report::Provenance;
@@ -85,17 +85,16 @@ pub fn run(
 ) -> Result<Outcome> {
     let grader = Grader::new(workspace, &options.grade)?;
     let grader = if options.secret_seed { grader.with_secret_seed() } else { grader };
-    let starter_text = workspace.assignment(&options.grade.assignment).starter()?;
-    let student_file = workspace.student_file();
-    let student_file = student_file.strip_prefix(workspace.root()).unwrap_or(&student_file);
+    let assignment = workspace.assignment(&options.grade.assignment);
+    let wanted = Wanted::new(&grader.rubric().submission, &assignment.starter()?);
     let shared = Shared {
         workspace,
-        student_file: student_file.display().to_string(),
+        student_file: grader.rubric().submission.path.clone(),
         marks: Marks::open(&options.out)?,
         base: hash_of_inputs(workspace, &grader, &options.grade)?,
         tasks: grader.rubric().tasks.iter().filter(|task| !task.manual).map(|task| task.id.clone()).collect(),
-        starter: Starter::new(&starter_text),
-        starter_text,
+        starter: Starter::new(&wanted.starter),
+        wanted,
         grader,
         class,
         policy,

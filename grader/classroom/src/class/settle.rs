@@ -16,7 +16,7 @@ use super::{Class, Member, pages};
 use crate::marks::Marks;
 use crate::policy::{Lateness, Policy, Receipt, the_one_that_counts};
 use harness::workspace::Workspace;
-use intake::{Intake, Refusal};
+use intake::{Intake, Refusal, Wanted};
 use judge::grade::Grader;
 use present::streams::note;
 use verdict::error::{Error, Result};
@@ -33,7 +33,7 @@ pub(super) struct Shared<'a> {
     pub(super) class: &'a Class,
     pub(super) policy: Option<&'a Policy>,
     pub(super) options: &'a RunOptions,
-    pub(super) starter_text: String,
+    pub(super) wanted: Wanted,
     pub(super) starter: Starter,
     /// Hash of everything that verdicts depend on except the submission.
     pub(super) base: blake3::Hash,
@@ -251,7 +251,7 @@ impl Shared<'_> {
     /// Reads a submission; its receipt may say which file of it is the source.
     fn read(&self, paths: &[PathBuf], receipt: Option<&Receipt>) -> Result<Intake> {
         let source = receipt.and_then(|receipt| receipt.source.as_deref());
-        let intake = self.options.reader.take(paths, &self.starter_text, source)?;
+        let intake = self.options.reader.take(paths, &self.wanted, source)?;
         match &intake.outcome {
             // The manifest is wrong, which must not cost the student anything.
             Err(refusal @ Refusal::NotThere(..)) => {

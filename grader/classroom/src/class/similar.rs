@@ -223,10 +223,11 @@ mod tests {
     #[test]
     fn a_renamed_and_commented_copy_is_the_same_and_another_style_is_not() {
         let workspace = Workspace::find().expect("the tests run inside the checkout");
-        let assignment = workspace.assignment("05-nee-mis");
-        let starter_text = read(&assignment.starter_file());
+        let assignment =
+            harness::assignment::Assignment::open(&workspace, "05-nee-mis").expect("it is sound");
+        let starter_text = read(&assignment.folder.starter_file());
         let starter = Starter::new(&starter_text);
-        let solution = read(&workspace.solution_file());
+        let solution = assignment.solution().expect("it is there");
         let disguised = solution
             .replace("p_light(", "chance(")
             .replace("balance(", "heuristic(")
@@ -240,7 +241,7 @@ mod tests {
             ("starter-2".to_owned(), starter_text),
         ]);
         for style in styles {
-            sources.insert(style.to_owned(), read(&assignment.variants().join(format!("{style}.rs"))));
+            sources.insert(style.to_owned(), read(&assignment.folder.variants().join(format!("{style}.rs"))));
         }
         let changed = sources["solution"].replace("hit.cos(wi) * weight / p_ne", "weight / p_ne");
         assert_ne!(changed, sources["solution"], "the solution has this expression");

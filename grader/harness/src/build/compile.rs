@@ -9,15 +9,12 @@ use std::time::{Duration, Instant};
 use super::refuse::{Look, look};
 use super::scratch::Scratch;
 use super::shape::Shape;
-use super::{Framework, refuse};
+use super::{Framework, Program, refuse};
 use crate::sandbox::{self, Account, BUSY, Layers, Limits, Profile, Watch};
 use serde::Deserialize;
 use verdict::error::{Error, Result};
 use verdict::submission::BuildFailure;
 use verdict::text::clean;
-
-/// The program around a submission.
-const PROGRAM: &str = include_str!("../../../host/program/main.rs");
 
 /// A compiled submission. Its files are removed when this is dropped.
 #[derive(Debug)]
@@ -67,20 +64,6 @@ impl SubmissionProgram {
     }
 }
 
-/// Hash of everything that decides how a source is compiled, except the source and the framework.
-pub fn recipe() -> blake3::Hash {
-    blake3::hash(&[PROGRAM.as_bytes(), include_bytes!("compile.rs")].concat())
-}
-
-/// A submission that compiles on every machine that can compile one.
-pub(crate) const EMPTY_SUBMISSION: &str = "use arty::prelude::*;
-pub struct PathTracer;
-impl PathTracer { pub fn new(_: Settings) -> Self { Self } }
-impl Integrator for PathTracer {
-    fn radiance(&self, _: &Scene, _: Ray, _: &mut Sampler) -> Rgb { Rgb::BLACK }
-}
-";
-
 /// Compiles the source of a submission in a sandbox and inspects the linked program. A source with forbidden words is
 /// not compiled. The outer error is the harness's, the inner one the submission's.
 pub fn compile(
@@ -91,11 +74,12 @@ pub fn compile(
     if !limits.inspect {
         return compile_anywhere(framework, source, limits);
     }
+    let file = framework.program.file_name.as_str();
     let look = look(source);
     if let Look::Through(refusals) = &look
         && !refusals.is_empty()
     {
-        return Ok(Err(refused(refusals)));
+        return Ok(Err(refused(file, refusals)));
     }
     // Mostly it is known already; if not, there is a core for it.
     let (usual, compiled) =
@@ -106,11 +90,11 @@ pub fn compile(
     };
     if let Look::Unreadable(line) = look {
         let why = "this source compiles but cannot be inspected: rewrite this part";
-        return Ok(Err(not_run(Some(line), &[why.to_owned()])));
+        return Ok(Err(not_run(file, Some(line), &[why.to_owned()])));
     }
     usual?;
     let differences = differences(framework, &program)?;
-    Ok(if differences.is_empty() { Ok(program) } else { Err(not_run(None, &differences)) })
+    Ok(if differences.is_empty() { Ok(program) } else { Err(not_run(file, None, &differences)) })
 }
 
 /// Differences between a program and that of an empty submission in whatever decides what runs before `main`. Empty
@@ -128,16 +112,18 @@ pub fn differences(framework: &Framework, program: &SubmissionProgram) -> Result
 /// # Errors
 /// If it does not compile.
 pub(crate) fn compile_empty(framework: &Framework, limits: &Limits) -> Result<SubmissionProgram> {
-    let program = match compile_once(framework, EMPTY_SUBMISSION, limits, true)? {
+    let program = match compile_once(framework, framework.program.empty_submission, limits, true)? {
         Ok(program) => program,
         // A toolchain whose files lie where the sandbox does not expect them. The report will tell its level.
-        Err(_) => compile_once(framework, EMPTY_SUBMISSION, limits, false)?.map_err(|failure| {
-            let folder = framework.dependencies.display();
-            Error::Harness(format!(
-                "not even an empty submission compiles here, against the libraries in {folder}:\n{}",
-                failure.messages
-            ))
-        })?,
+        Err(_) => compile_once(framework, framework.program.empty_submission, limits, false)?.map_err(
+            |failure| {
+                let folder = framework.dependencies.display();
+                Error::Harness(format!(
+                    "not even an empty submission compiles here, against the libraries in {folder}:\n{}",
+                    failure.messages
+                ))
+            },
+        )?,
     };
     framework.usual.get_or_init(|| Shape::of(&program.executable).ok());
     Ok(program)
@@ -152,21 +138,21 @@ fn usual_shape<'a>(framework: &'a Framework, limits: &Limits) -> Result<&'a Shap
 }
 
 /// Failure of a source that is refused before it is compiled.
-fn refused(refusals: &[refuse::Refusal]) -> BuildFailure {
+fn refused(file: &str, refusals: &[refuse::Refusal]) -> BuildFailure {
     let lines = refusals.iter().map(|refusal| {
         let refuse::Refusal { line, what, why } = refusal;
-        format!("error: {what} is not allowed in a submission\n --> render_pt.rs:{line}\n  = {why}\n")
+        format!("error: {what} is not allowed in a submission\n --> {file}:{line}\n  = {why}\n")
     });
     let line = refusals.first().and_then(|refusal| u32::try_from(refusal.line).ok());
     BuildFailure { messages: clean(&lines.collect::<Vec<_>>().join("\n")), line }
 }
 
 /// Failure of a program that was compiled but must not run.
-fn not_run(line: Option<usize>, why: &[String]) -> BuildFailure {
+fn not_run(file: &str, line: Option<usize>, why: &[String]) -> BuildFailure {
     let mut messages =
         "error: the program is not run: it differs from what safe Rust compiles to\n".to_owned();
     if let Some(line) = line {
-        messages.push_str(&format!(" --> render_pt.rs:{line}\n"));
+        messages.push_str(&format!(" --> {file}:{line}\n"));
     }
     for why in why.iter().take(LISTED) {
         messages.push_str(&format!("  = it has: {why}\n"));
@@ -192,7 +178,9 @@ fn compile_anywhere(
         return Err(Error::Harness(format!("the framework's libraries are gone from {folder}: grade again")));
     }
     // No line of the submission is to blame: is it the machine? A missing linker, a full disk?
-    if failure.line.is_some() || compile_once(framework, EMPTY_SUBMISSION, limits, true)?.is_ok() {
+    if failure.line.is_some()
+        || compile_once(framework, framework.program.empty_submission, limits, true)?.is_ok()
+    {
         return Ok(Err(failure));
     }
     // Or a toolchain whose files lie where the sandbox does not expect them?
@@ -208,7 +196,8 @@ fn compile_once(
 ) -> Result<std::result::Result<SubmissionProgram, BuildFailure>> {
     let trouble = |what: &str, error: std::io::Error| Error::Harness(format!("{what}: {error}"));
     let folder = Scratch::new()?;
-    for (name, text) in [("main.rs", PROGRAM), ("render_pt.rs", source)] {
+    let Program { file_name, text: program, .. } = &framework.program;
+    for (name, text) in [("main.rs", program.as_str()), (file_name, source)] {
         std::fs::write(folder.path().join(name), text)
             .map_err(|error| trouble("the submission cannot be copied", error))?;
     }
@@ -244,7 +233,7 @@ fn compile_once(
     }
     let messages = read_messages(&folder.path().join(MESSAGES))
         .map_err(|error| trouble("rustc's messages are gone", error))?;
-    Ok(Err(build_failure(&messages, &status.to_string())))
+    Ok(Err(build_failure(&framework.program.file_name, &messages, &status.to_string())))
 }
 
 /// Runs rustc; `None` if it had to be ended.
@@ -360,14 +349,14 @@ struct Span {
     is_primary: bool,
 }
 
-fn build_failure(stderr: &str, status: &str) -> BuildFailure {
+fn build_failure(file: &str, stderr: &str, status: &str) -> BuildFailure {
     let (mut messages, mut line, mut is_unresolved) = (String::new(), None, false);
     for text in stderr.lines() {
         match serde_json::from_str::<Message>(text) {
             Ok(message) if message.level == "error" => {
                 messages.push_str(message.rendered.as_deref().unwrap_or_default());
                 is_unresolved |= message.code.is_some_and(|code| UNRESOLVED.contains(&code.code.as_str()));
-                let own = |span: &&Span| span.is_primary && span.file_name == "render_pt.rs";
+                let own = |span: &&Span| span.is_primary && span.file_name == file;
                 line = line.or(message.spans.iter().find(own).map(|span| span.line_start));
             }
             Ok(_) => {}

@@ -6,13 +6,16 @@ use std::sync::{Arc, OnceLock};
 use super::cargo;
 use super::compiler::Compiler;
 use super::kept::{self, Kept};
+use super::program::Program;
 use super::shape::Shape;
 use crate::sandbox::Grants;
 use crate::tree_hash::hash_tree;
 use crate::workspace::Workspace;
 use verdict::error::Result;
+use verdict::rubric::StudentFile;
 
-/// The compiled libraries of the framework, as Cargo built them from the sources of this checkout.
+/// The compiled libraries of the framework, as Cargo built them from the sources of this checkout, and the program that
+/// is compiled around submissions.
 ///
 /// The submission has no part in this build: no file of it ever reaches Cargo.
 #[derive(Clone, Debug)]
@@ -29,6 +32,8 @@ pub struct Framework {
     pub toolchain: String,
     /// Path of rustc.
     pub rustc: PathBuf,
+    /// The fixed program around submissions.
+    pub program: Program,
     /// Files that the sandbox must grant to the compiler.
     pub grants: Grants,
     /// Shape of the program of an empty submission, once one has been compiled; `None` if it could not be read.
@@ -38,16 +43,17 @@ pub struct Framework {
 }
 
 impl Framework {
-    /// Takes the framework from the user's cache, or builds it and adds it to the cache.
+    /// Takes the framework from the user's cache, or builds it and adds it to the cache. `file` is what students hand in.
     ///
     /// # Errors
     /// If it does not build, or if there is no compiler.
-    pub fn build(workspace: &Workspace) -> Result<Self> {
+    pub fn build(workspace: &Workspace, file: &StudentFile) -> Result<Self> {
+        let program = Program::around(file);
         let compiler = Compiler::of(workspace.root())?;
         let (cache_dir, key) = (kept::cache_dir(), key_of(workspace, &compiler)?);
         let find = || Kept::find(cache_dir.as_deref()?, &key);
         if let Some(kept) = find() {
-            return Ok(Self::of_kept(kept, key, &compiler));
+            return Ok(Self::of_kept(kept, key, &compiler, program));
         }
         let built = cargo::build(workspace, &compiler, &key)?;
         // Somebody may have saved another source meanwhile, or have been faster.
@@ -59,10 +65,10 @@ impl Framework {
             let _ = Kept::keep(cache_dir, &key, &built);
         }
         Ok(match find() {
-            Some(kept) => Self::of_kept(kept, key, &compiler),
+            Some(kept) => Self::of_kept(kept, key, &compiler, program),
             None => {
                 let dependencies = built.dependencies();
-                Self::new(built.arty, built.host, dependencies, key, &compiler)
+                Self::new([built.arty, built.host, dependencies], key, &compiler, program)
             }
         })
     }
@@ -73,12 +79,17 @@ impl Framework {
             && !kept::cache_dir().is_some_and(|cache_dir| cache_dir.exists())
     }
 
-    fn of_kept(kept: Kept, key: String, compiler: &Compiler) -> Self {
-        let framework = Self::new(kept.arty(), kept.host(), kept.libraries(), key, compiler);
+    fn of_kept(kept: Kept, key: String, compiler: &Compiler, program: Program) -> Self {
+        let framework = Self::new([kept.arty(), kept.host(), kept.libraries()], key, compiler, program);
         Self { kept: Some(Arc::new(kept)), ..framework }
     }
 
-    fn new(arty: PathBuf, host: PathBuf, dependencies: PathBuf, key: String, compiler: &Compiler) -> Self {
+    fn new(
+        [arty, host, dependencies]: [PathBuf; 3],
+        key: String,
+        compiler: &Compiler,
+        program: Program,
+    ) -> Self {
         let folders = [Some(dependencies.as_path()), arty.parent(), host.parent()];
         let folders: Vec<&Path> = folders.into_iter().flatten().collect();
         Self {
@@ -86,12 +97,18 @@ impl Framework {
             toolchain: compiler.name().to_owned(),
             rustc: compiler.rustc.clone(),
             grants: Grants::of_toolchain(&compiler.rustc, &compiler.sysroot, &folders),
+            program,
             arty,
             host,
             dependencies,
             usual: Arc::default(),
             kept: None,
         }
+    }
+
+    /// Hash of everything that decides how a source is compiled, except the source and the libraries.
+    pub fn recipe(&self) -> blake3::Hash {
+        blake3::hash(&[self.program.text.as_bytes(), include_bytes!("compile.rs")].concat())
     }
 
     /// True as long as the libraries are there.

@@ -5,6 +5,7 @@ mod compile;
 mod compiler;
 mod framework;
 mod kept;
+mod program;
 mod refuse;
 mod scratch;
 #[cfg(target_os = "linux")]
@@ -14,5 +15,6 @@ mod shape;
 mod shape;
 
 pub(crate) use compile::compile_empty;
-pub use compile::{SubmissionProgram, compile, differences, recipe};
+pub use compile::{SubmissionProgram, compile, differences};
 pub use framework::Framework;
+pub use program::Program;

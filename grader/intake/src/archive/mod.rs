@@ -65,7 +65,7 @@ fn wanted(archive: &str, entry: &[u8], link: bool, collector: &mut Collector) ->
     } else {
         return Some(name);
     };
-    if names::kind(entry) == Kind::Named {
+    if collector.kind(entry) == Kind::Named {
         collector.bad_source(refusal);
     } else {
         collector.note(Note::PassedOver(refusal.to_string()));

@@ -29,7 +29,7 @@ pub(super) fn collect(name: &str, bytes: &[u8], depth: usize, collector: &mut Co
     };
     let start = usize::try_from(archive.central_directory_start()).unwrap_or(usize::MAX);
     for twice in named_twice(bytes.get(start..).unwrap_or_default()) {
-        if names::kind(&twice) == Kind::Named {
+        if collector.kind(&twice) == Kind::Named {
             collector.bad_source(Refusal::TwoEntries(names::shown(name, &twice)));
         }
     }

@@ -133,7 +133,7 @@ fn walk(
                 b"40000" if depth < limits::DEPTH && !names::is_left_behind(&path) => {
                     waiting.push((entry.id, format!("{path}/"), depth + 1));
                 }
-                b"120000" if names::kind(&path) == Kind::Named => {
+                b"120000" if collector.kind(&path) == Kind::Named => {
                     collector.bad_source(Refusal::Link(shown(inside, &path)));
                 }
                 b"100644" | b"100755" | b"100664" if collector.wants(&path) => {
@@ -155,7 +155,7 @@ fn collect_blob(
     name: &str,
     collector: &mut Collector,
 ) -> Result<(), Stop> {
-    let kind = names::kind(name);
+    let kind = collector.kind(name);
     // Archives in a repository are nobody's submission.
     if matches!(kind, Kind::Archive | Kind::UnknownArchive) {
         return Ok(());

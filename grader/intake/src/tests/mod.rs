@@ -15,6 +15,12 @@ use super::*;
 const SOURCE: &str = "pub struct PathTracer;\n";
 const STARTER: &str = "// TASK\npub struct PathTracer;\n";
 
+/// The usual file, with this starting file.
+fn wanted(starter: &str) -> Wanted {
+    let [file_name, type_name, starter] = ["render_pt.rs", "PathTracer", starter].map(str::to_owned);
+    Wanted { file_name, type_name, starter }
+}
+
 fn zip(entries: &[(&str, &[u8])]) -> Vec<u8> {
     let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, bytes) in entries {
@@ -49,7 +55,7 @@ fn gzip(bytes: &[u8]) -> Vec<u8> {
 fn take_folder(files: &[(&str, &[u8])]) -> Intake {
     let folder = tempfile::tempdir().expect("a temporary folder");
     write_all(folder.path(), files);
-    take(&[folder.path().to_owned()], STARTER, None).expect("the folder is there")
+    take(&[folder.path().to_owned()], &wanted(STARTER), None).expect("the folder is there")
 }
 
 fn write_all(folder: &Path, files: &[(&str, &[u8])]) {
@@ -263,7 +269,7 @@ fn links_are_not_followed() {
     std::os::unix::fs::symlink("../elsewhere/real.txt", submission.join("render_pt.rs"))
         .expect("it can be made");
     std::os::unix::fs::symlink("..", submission.join("loop")).expect("it can be made");
-    assert_eq!(code(&take(&[submission], STARTER, None).expect("it is there")), "link");
+    assert_eq!(code(&take(&[submission], &wanted(STARTER), None).expect("it is there")), "link");
 }
 
 fn git(folder: &Path, arguments: &[&str]) {
@@ -280,7 +286,7 @@ fn of_a_repository_the_last_commit_counts_and_nothing_of_it_runs() {
     write_all(&work, &[("src/render_pt.rs", SOURCE.as_bytes()), (".gitattributes", b"*.rs filter=evil\n")]);
     git(&work, &["init", "-q"]);
     assert_eq!(
-        code(&take(std::slice::from_ref(&work), STARTER, None).expect("it is there")),
+        code(&take(std::slice::from_ref(&work), &wanted(STARTER), None).expect("it is there")),
         "git",
         "no commit yet"
     );
@@ -294,11 +300,11 @@ fn of_a_repository_the_last_commit_counts_and_nothing_of_it_runs() {
         git(&work, &["config", key, &evil]);
     }
     write_all(&work, &[("src/render_pt.rs", b"changed")]);
-    let checkout = take(&[work], STARTER, None).expect("it is there");
+    let checkout = take(&[work], &wanted(STARTER), None).expect("it is there");
     assert_eq!((source(&checkout), notes(&checkout)), (SOURCE, vec!["uncommitted"]));
     assert!(!proof.exists(), "a program of the repository ran");
-    let from_bare = take(std::slice::from_ref(&bare), STARTER, None).expect("it is there");
+    let from_bare = take(std::slice::from_ref(&bare), &wanted(STARTER), None).expect("it is there");
     assert_eq!((source(&from_bare), notes(&from_bare)), (SOURCE, vec![]));
     write_all(&bare, &[("objects/info/alternates", b"/elsewhere\n")]);
-    assert_eq!(code(&take(&[bare], STARTER, None).expect("it is there")), "git");
+    assert_eq!(code(&take(&[bare], &wanted(STARTER), None).expect("it is there")), "git");
 }

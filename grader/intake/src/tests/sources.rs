@@ -9,13 +9,13 @@ fn take_files(files: &[(&str, &[u8])], source: Option<&str>) -> Intake {
     let folder = tempfile::tempdir().expect("a temporary folder");
     write_all(folder.path(), files);
     let paths: Vec<PathBuf> = files.iter().map(|(name, _)| folder.path().join(name)).collect();
-    take(&paths, STARTER, source).expect("the files are there")
+    take(&paths, &wanted(STARTER), source).expect("the files are there")
 }
 
 fn pick(files: &[(&str, &[u8])], source: &str) -> Intake {
     let folder = tempfile::tempdir().expect("a temporary folder");
     write_all(folder.path(), files);
-    take(&[folder.path().to_owned()], STARTER, Some(source)).expect("the folder is there")
+    take(&[folder.path().to_owned()], &wanted(STARTER), Some(source)).expect("the folder is there")
 }
 
 fn explanations(intake: &Intake) -> Vec<&str> {
@@ -131,8 +131,11 @@ fn of_several_folders_each_name_says_which() {
         &[("one/render_pt.rs", SOURCE.as_bytes()), ("two/render_pt.rs", NEWER.as_bytes())],
     );
     let paths = [folder.path().join("one"), folder.path().join("two")];
-    assert_eq!(code(&take(&paths, STARTER, None).expect("they are there")), "several-candidates");
-    assert_eq!(source(&take(&paths, STARTER, Some("two/render_pt.rs")).expect("they are there")), NEWER);
+    assert_eq!(code(&take(&paths, &wanted(STARTER), None).expect("they are there")), "several-candidates");
+    assert_eq!(
+        source(&take(&paths, &wanted(STARTER), Some("two/render_pt.rs")).expect("they are there")),
+        NEWER
+    );
 }
 
 #[test]

@@ -1,12 +1,11 @@
 //! The short measurement that is part of every grade.
 
-use arty::integrator::Technique;
-
 use super::measure::{MeasuredProgram, Options, measure};
 use harness::build::SubmissionProgram;
 use harness::workspace::Workspace;
 use verdict::convergence::{Convergence, NotMeasured, Role};
 use verdict::error::Result;
+use verdict::rubric::Rubric;
 
 /// The two scenes in which the techniques differ most in a short run.
 const SCENES: [&str; 2] = ["cornell_box", "veach_mis"];
@@ -14,13 +13,14 @@ const SCENES: [&str; 2] = ["cornell_box", "veach_mis"];
 /// Processor time budget of all renderings, in seconds.
 const SECONDS: f64 = 1.8;
 
-/// Measures `mis` of a submission beside that of the solution and BSDF sampling, in about two seconds. Without the
+/// Measures the reference technique of a submission beside that of the solution and the baseline, in about two seconds. Without the
 /// solution, only the submission's own BSDF sampling is compared.
 ///
 /// # Errors
 /// If the grader itself fails.
 pub fn brief(
     workspace: &Workspace,
+    rubric: &Rubric,
     submission: &SubmissionProgram,
     solution: Option<&SubmissionProgram>,
     seed: u64,
@@ -28,10 +28,12 @@ pub fn brief(
     let named = |name: &str, role, program| MeasuredProgram { name: name.to_owned(), role, program };
     let mut programs = vec![named("submission", Role::Submission, submission)];
     programs.extend(solution.map(|program| named("solution", Role::Solution, program)));
-    programs.push(named("BSDF sampling", Role::Baseline, solution.unwrap_or(submission)));
+    if rubric.baseline().is_some() {
+        programs.push(named("BSDF sampling", Role::Baseline, solution.unwrap_or(submission)));
+    }
     let options = Options {
         scenes: SCENES.map(str::to_owned).to_vec(),
-        techniques: vec![Technique::Mis],
+        techniques: vec![rubric.reference_technique],
         seconds: SECONDS,
         target: None,
         seed,

@@ -3,18 +3,33 @@
 use arty::integrator::Technique;
 use verdict::check::{CheckKind, CheckResult, Evidence, Fault, Reason, Verdict, WeightForm};
 use verdict::report::{Cause, Diagnosis, Report, SeenIn};
+use verdict::rubric::NotBegun;
 
 use super::ExplainedCause;
 
-/// The techniques that a submission implements.
-const BOTH: [Technique; 2] = [Technique::Nee, Technique::Mis];
+/// What an assignment says about its techniques.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Techniques {
+    /// Those that students write.
+    pub(super) graded: Vec<Technique>,
+    /// How to recognise those that are not begun.
+    pub(super) not_begun: Vec<NotBegun>,
+    /// What to begin with.
+    pub(super) begin: String,
+}
 
 /// Causes that are evident from the report and the source.
-pub(super) fn causes(report: &Report, source: &str, starter: &str) -> Vec<ExplainedCause> {
+pub(super) fn causes(
+    techniques: &Techniques,
+    report: &Report,
+    source: &str,
+    starter: &str,
+) -> Vec<ExplainedCause> {
+    let Techniques { graded: all_techniques, not_begun, begin } = techniques;
     if report.submission.build_failure.is_some() {
         let refused = report.submission.refusal.is_some();
         let cause = if refused { Cause::NothingToCompile } else { Cause::DoesNotCompile };
-        return vec![found(cause, None, &BOTH)];
+        return vec![found(cause, None, all_techniques)];
     }
     let stopped = |reason: Reason| report.checks.iter().filter(move |check| check.reason == reason);
     let mut all = Vec::new();
@@ -25,13 +40,21 @@ pub(super) fn causes(report: &Report, source: &str, starter: &str) -> Vec<Explai
     }
     let late = stopped(Reason::Timeout).count();
     if 2 * late > report.checks.len() {
-        all.push(found(Cause::DoesNotFinish { late }, stopped(Reason::Timeout).next(), &BOTH));
+        all.push(found(Cause::DoesNotFinish { late }, stopped(Reason::Timeout).next(), all_techniques));
     }
-    let untouched = Untouched::of(source, starter);
-    if all.is_empty() && untouched.everything {
-        all.push(found(Cause::NotBegun, None, &BOTH));
-    } else if all.is_empty() && untouched.mis && has_constant_weights(report) {
-        all.push(found(Cause::MisNotBegun, None, &[Technique::Mis]));
+    if !all.is_empty() {
+        return all;
+    }
+    match begun(source, starter) {
+        Some(false) => all.push(found(Cause::NotBegun { hint: begin.clone() }, None, all_techniques)),
+        Some(true) if has_constant_weights(report) => {
+            let unnamed = not_begun.iter().filter(|technique| !names(source, &technique.name));
+            all.extend(unnamed.map(|NotBegun { technique, name, hint }| {
+                let (name, hint) = (name.clone(), hint.clone());
+                found(Cause::TechniqueNotBegun { technique: *technique, name, hint }, None, &[*technique])
+            }));
+        }
+        _ => {}
     }
     all
 }
@@ -47,8 +70,11 @@ fn is_todo(check: &CheckResult) -> bool {
     ["not yet implemented", "not implemented"].iter().any(|beginning| message.starts_with(beginning))
 }
 
-/// The cause of a check that fails with the technique `bsdf`, which the starting file passes.
-pub(super) fn bsdf_changed(report: &Report) -> Option<ExplainedCause> {
+/// The cause of a check that fails with the technique `bsdf`, where students do not write it: the starting file passes.
+pub(super) fn bsdf_changed(report: &Report, student_techniques: &[Technique]) -> Option<ExplainedCause> {
+    if student_techniques.contains(&Technique::Bsdf) {
+        return None;
+    }
     let is_wrong = |check: &&CheckResult| {
         let says_why = matches!(check.reason, Reason::Crash | Reason::Timeout);
         check.id.technique == Technique::Bsdf && check.verdict == Verdict::Fail && !says_why
@@ -97,24 +123,15 @@ fn has_constant_weights(report: &Report) -> bool {
     })
 }
 
-/// Which parts of a submission have not been begun. Neither, if it or the starting file has no task blocks.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Untouched {
-    /// Its task blocks hold no code beyond that of the starting file's blocks.
-    everything: bool,
-    /// Some blocks were filled in, but the code never names the technique `Mis`.
-    mis: bool,
+/// True if the task blocks hold code beyond that of the starting file's blocks; `None` if either has no task blocks.
+fn begun(source: &str, starter: &str) -> Option<bool> {
+    let (written, given) = (code_in_blocks(source)?, code_in_blocks(starter)?);
+    Some(written.iter().any(|line| !given.contains(line)))
 }
 
-impl Untouched {
-    fn of(source: &str, starter: &str) -> Self {
-        let (Some(written), Some(given)) = (code_in_blocks(source), code_in_blocks(starter)) else {
-            return Self::default();
-        };
-        let names_mis = |line: &str| line.split("//").next().unwrap_or_default().contains("Mis");
-        let everything = written.iter().all(|line| given.contains(line));
-        Self { everything, mis: !everything && !source.lines().any(names_mis) }
-    }
+/// True if a source names this outside of comments.
+fn names(source: &str, name: &str) -> bool {
+    source.lines().any(|line| line.split("//").next().unwrap_or_default().contains(name))
 }
 
 /// The lines of code between `// TASK` and `// END`, without indentation; `None` if there is no such block.
@@ -139,7 +156,11 @@ mod tests {
     use verdict::sample::report;
 
     fn named(report: &Report, source: &str) -> Vec<String> {
-        causes(report, source, BLOCK).into_iter().map(|found| found.diagnosis.cause.id().to_owned()).collect()
+        let techniques = Techniques { graded: vec![Technique::Nee, Technique::Mis], ..Techniques::default() };
+        causes(&techniques, report, source, BLOCK)
+            .into_iter()
+            .map(|found| found.diagnosis.cause.id().to_owned())
+            .collect()
     }
 
     #[test]
@@ -161,40 +182,41 @@ mod tests {
     fn plain_bsdf_sampling_that_fails_was_changed() {
         let mut report = report("x");
         report.checks[0].verdict = Verdict::Fail;
-        assert!(bsdf_changed(&report).is_none(), "it is another technique");
+        assert!(bsdf_changed(&report, &[Technique::Nee]).is_none(), "it is another technique");
         report.checks[0].id.technique = Technique::Bsdf;
-        let cause = bsdf_changed(&report).expect("it was changed");
+        let cause = bsdf_changed(&report, &[Technique::Nee]).expect("it was changed");
         assert!(cause.explains(Technique::Bsdf) && !cause.explains(Technique::Nee));
         report.checks[0].reason = Reason::Timeout;
-        assert!(bsdf_changed(&report).is_none(), "it was not finished");
+        assert!(bsdf_changed(&report, &[Technique::Nee]).is_none(), "it was not finished");
+        report.checks[0].reason = Reason::Bias;
+        assert!(bsdf_changed(&report, &[Technique::Bsdf]).is_none(), "it is what students write");
     }
 
     #[test]
     fn a_file_that_does_not_compile_has_no_other_cause() {
         let mut report = report("x");
         let messages = "error[E0425]: cannot find value `x`".to_owned();
+        let techniques = Techniques { graded: vec![Technique::Nee, Technique::Mis], ..Techniques::default() };
         report.submission.build_failure = Some(verdict::submission::BuildFailure { messages, line: Some(7) });
-        let found = causes(&report, BLOCK, BLOCK);
+        let found = causes(&techniques, &report, BLOCK, BLOCK);
         assert_eq!(found.len(), 1);
         assert_eq!(found[0].diagnosis.cause, Cause::DoesNotCompile);
-        assert!(found[0].is_everything());
+        assert!(techniques.graded.iter().all(|&technique| found[0].explains(technique)));
     }
 
     const BLOCK: &str = "// TASK 5.1a\n    Rgb::BLACK\n// what to do\n// END 5.1a\n";
 
     #[test]
-    fn blocks_with_the_starters_code_only_are_untouched() {
-        let everything = Untouched { everything: true, mis: false };
-        let mis = Untouched { everything: false, mis: true };
-        let nothing = Untouched { everything: false, mis: false };
-        for (source, expected) in [
-            (BLOCK.to_owned(), everything),
-            (format!("{BLOCK}// TASK 5.2\nTechnique::Nee; // not Mis\n// END\n"), mis),
-            (format!("{BLOCK}// TASK 5.2\nmatch t {{ Mis => 1.0 }}\n// END\n"), nothing),
-            ("fn without_marks() {}".to_owned(), nothing),
+    fn blocks_with_the_starters_code_only_are_not_begun() {
+        for (source, is_begun, names_mis) in [
+            (BLOCK.to_owned(), Some(false), false),
+            (format!("{BLOCK}// TASK 5.2\nTechnique::Nee; // not Mis\n// END\n"), Some(true), false),
+            (format!("{BLOCK}// TASK 5.2\nmatch t {{ Mis => 1.0 }}\n// END\n"), Some(true), true),
+            ("fn without_marks() {}".to_owned(), None, false),
         ] {
-            assert_eq!(Untouched::of(&source, BLOCK), expected, "{source}");
-            assert_eq!(Untouched::of(&source, ""), nothing, "without a starting file: {source}");
+            assert_eq!(begun(&source, BLOCK), is_begun, "{source}");
+            assert_eq!(begun(&source, ""), None, "without a starting file: {source}");
+            assert_eq!(names(&source, "Mis"), names_mis, "{source}");
         }
     }
 }

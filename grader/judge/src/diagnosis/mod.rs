@@ -30,6 +30,9 @@ use serde::Deserialize;
 use verdict::check::CheckResult;
 use verdict::error::{Error, Result};
 use verdict::report::{self, Diagnosis, Report};
+use verdict::rubric::Rubric;
+
+use direct::Techniques;
 
 /// Maximum number of causes of a report.
 pub const MAX_CAUSES: usize = 3;
@@ -44,6 +47,7 @@ pub struct Catalogue {
     signatures: Signatures,
     /// Failed facts of the known mistakes.
     facts: LearntFacts,
+    techniques: Techniques,
 }
 
 /// A known mistake.
@@ -76,7 +80,7 @@ impl Catalogue {
     ///
     /// # Errors
     /// If one of the files is invalid, or a variant named by a cause has no signature.
-    pub fn load(assignment: &AssignmentFolder) -> Result<Self> {
+    pub fn load(assignment: &AssignmentFolder, rubric: &Rubric) -> Result<Self> {
         let (words, measured) = (assignment.causes_file(), assignment.signatures_file());
         let facts = assignment.facts_file();
         let catalogue = Self {
@@ -87,6 +91,11 @@ impl Catalogue {
             },
             signatures: if measured.is_file() { Signatures::load(&measured)? } else { Signatures::default() },
             facts: if facts.is_file() { LearntFacts::load(&facts)? } else { LearntFacts::default() },
+            techniques: Techniques {
+                graded: rubric.student_techniques(),
+                not_begun: rubric.not_begun.clone(),
+                begin: rubric.begin.clone(),
+            },
         };
         for cause in &catalogue.causes {
             for variant in &cause.variants {
@@ -124,20 +133,22 @@ impl Catalogue {
         if !wrong && report.submission.build_failure.is_none() {
             return Vec::new();
         }
-        let mut found = direct::causes(report, source, starter);
-        if found.iter().all(|direct| !direct.is_everything()) {
+        let graded = &self.techniques.graded;
+        let is_everything = |direct: &ExplainedCause| graded.iter().all(|&it| direct.explains(it));
+        let mut found = direct::causes(&self.techniques, report, source, starter);
+        if !found.iter().any(is_everything) {
             found.extend(self.of_facts(report, &found));
         }
         let explained = |technique: Technique| found.iter().any(|direct| direct.explains(technique));
-        let vector = ObservationVector::of(report).without(explained);
-        if found.iter().all(|direct| !direct.is_everything()) && !vector.all_pass() {
+        let vector = ObservationVector::of(report, graded).without(explained);
+        if !found.iter().any(is_everything) && !vector.all_pass() {
             found.extend(self.compared(report, &vector));
         }
         if found.is_empty() {
             found.extend(direct::constant_factor(report));
         }
         // Last, since it explains no failure of another technique.
-        let bsdf = direct::bsdf_changed(report);
+        let bsdf = direct::bsdf_changed(report, graded);
         if found.is_empty() && (bsdf.is_none() || !vector.all_pass()) {
             let several_fit = rank::something_fits(self, &vector);
             let cause = report::Cause::Unknown { several_fit };
@@ -149,14 +160,14 @@ impl Catalogue {
         found.into_iter().map(|found| found.diagnosis).collect()
     }
 
-    /// Failed facts of the audit, and the known mistake that has exactly these. They explain the failures of both
+    /// Failed facts of the audit, and the known mistake that has exactly these. They explain the failures of all
     /// techniques: what only looks similar could mislead.
     fn of_facts(&self, report: &Report, direct: &[ExplainedCause]) -> Vec<ExplainedCause> {
         let Some(audit) = &report.audit else { return Vec::new() };
         let is_explained = |technique: Technique| direct.iter().any(|direct| direct.explains(technique));
         let mut statements = audit.statements();
         statements.retain(|fact| !is_explained(fact.technique));
-        let explains = vec![Technique::Nee, Technique::Mis];
+        let explains = self.techniques.graded.clone();
         let found = |cause: report::Cause| ExplainedCause {
             diagnosis: Diagnosis { cause, confidence: 1.0, seen: None },
             explains: explains.clone(),
@@ -213,10 +224,5 @@ struct ExplainedCause {
 impl ExplainedCause {
     fn explains(&self, technique: Technique) -> bool {
         self.explains.contains(&technique)
-    }
-
-    /// True if it explains the failures of both techniques.
-    fn is_everything(&self) -> bool {
-        [Technique::Nee, Technique::Mis].into_iter().all(|technique| self.explains(technique))
     }
 }

@@ -1,6 +1,6 @@
 //! The observations of a report's checks, as numbers that can be compared.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use arty::integrator::Technique;
 use serde::{Deserialize, Serialize};
@@ -68,11 +68,11 @@ pub struct CheckObservations {
 pub struct ObservationVector(pub BTreeMap<CheckId, CheckObservations>);
 
 impl ObservationVector {
-    /// The observations of a report's checks that were run, without kinds whose scenes depend on the seed, and without the
-    /// technique `bsdf`, which students only have to leave alone.
-    pub fn of(report: &Report) -> Self {
+    /// The observations of a report's checks that were run, of the techniques that students write, without kinds whose scenes
+    /// depend on the seed.
+    pub fn of(report: &Report, student_techniques: &[Technique]) -> Self {
         let seen = |check: &CheckResult| {
-            if check.id.kind.draws_scenes() || check.id.technique == Technique::Bsdf {
+            if check.id.kind.draws_scenes() || !student_techniques.contains(&check.id.technique) {
                 return None;
             }
             let state = CheckState::of(check)?;
@@ -100,6 +100,11 @@ impl ObservationVector {
             }
         }
         stopped
+    }
+
+    /// The techniques of its checks.
+    pub(super) fn techniques(&self) -> BTreeSet<Technique> {
+        self.0.keys().map(|id| id.technique).collect()
     }
 
     /// The checks of a technique.

@@ -55,7 +55,8 @@ impl Candidate<'_> {
 /// ranked separately and merged.
 pub(super) fn rank<'a>(catalogue: &'a Catalogue, vector: &ObservationVector) -> Vec<Candidate<'a>> {
     let joint = within(catalogue, vector, None);
-    let parts: Vec<Vec<Candidate<'a>>> = [Technique::Nee, Technique::Mis]
+    let parts: Vec<Vec<Candidate<'a>>> = vector
+        .techniques()
         .into_iter()
         .map(|technique| (technique, vector.of_technique(technique)))
         .filter(|(_, part)| !part.all_pass())

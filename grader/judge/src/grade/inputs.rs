@@ -19,7 +19,7 @@ pub(super) fn load_scenes(
     selected: &Selected<'_>,
 ) -> Result<BTreeMap<String, SceneWithReference>> {
     let mut scenes = BTreeMap::new();
-    let is_staff = workspace.solution_file().is_file();
+    let is_staff = workspace.is_staff();
     let is_missing = |scene: &str| {
         !is_staff
             && Visibility::of_scene(scene) == Visibility::StaffOnly
@@ -28,6 +28,16 @@ pub(super) fn load_scenes(
     for (_, spec) in selected.iter().filter(|(_, spec)| spec.check.needs_scene()) {
         if !(scenes.contains_key(&spec.scene) || is_missing(&spec.scene)) {
             scenes.insert(spec.scene.clone(), load_scene(workspace, &spec.scene)?);
+        }
+        if let Some(lacking) = scenes.get(&spec.scene).and_then(|scene| scene.reference.lacks(spec)) {
+            let scene = &spec.scene;
+            return Err(Error::file(
+                &workspace.reference_file(scene),
+                format!(
+                    "{} needs {lacking}, which it lacks; create it with `cargo lab reference {scene}`",
+                    spec.id()
+                ),
+            ));
         }
     }
     Ok(scenes)

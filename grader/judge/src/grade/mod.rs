@@ -16,6 +16,7 @@ use crate::plan;
 use crate::reference::Oracle;
 use crate::statistics::sequential::{LOOKS, SCREENING_LEVEL};
 use arty::integrator::Technique;
+use harness::assignment::Assignment;
 use harness::build::{Framework, SubmissionProgram, compile};
 use harness::host_process::HostProcess;
 use harness::sandbox::{Limits, Machine};
@@ -89,8 +90,8 @@ impl Grader {
     /// # Errors
     /// If any of these is invalid.
     pub fn new(workspace: &Workspace, options: &Options) -> Result<Self> {
-        let assignment = workspace.assignment(&options.assignment);
-        let rubric = assignment.rubric()?;
+        let assignment = Assignment::open(workspace, &options.assignment)?;
+        let rubric = assignment.rubric.clone();
         plan::validate(&rubric)?;
         let selected = select(&rubric, &options.only)?;
         let start = Instant::now();
@@ -98,20 +99,20 @@ impl Grader {
         let (scenes, framework) = rayon::join(
             || load_scenes(workspace, &selected),
             || {
-                let framework = Framework::build(workspace)?;
+                let framework = assignment.framework(workspace)?;
                 trial::require_that_submissions_work(&framework, &options.limits)?;
                 Ok::<_, verdict::error::Error>(framework)
             },
         );
         let (scenes, framework) = (scenes?, framework?);
-        let oracle = Oracle::of(workspace, &framework)?;
+        let oracle = Oracle::of(workspace, &assignment, &framework)?;
         let framework_time = start.elapsed().as_secs_f64();
         let skipped = plan::skipped(&scenes);
         let provenance = Provenance {
             assignment: options.assignment.clone(),
             grader: env!("CARGO_PKG_VERSION").to_owned(),
             framework: framework.hash.clone(),
-            rubric: hash_of_file(&assignment.rubric_file())?,
+            rubric: hash_of_file(&assignment.folder.rubric_file())?,
             references: hash_of_references(&scenes),
             seed: Some(options.seed),
             secret_seed: false,
@@ -120,7 +121,6 @@ impl Grader {
         };
         Ok(Self {
             options: options.clone(),
-            rubric,
             scenes,
             framework,
             framework_time,
@@ -128,8 +128,9 @@ impl Grader {
             workspace: workspace.clone(),
             skipped,
             provenance,
-            catalogue: Catalogue::load(&assignment)?,
-            starter: assignment.starter()?,
+            catalogue: Catalogue::load(&assignment.folder, &rubric)?,
+            rubric,
+            starter: assignment.folder.starter()?,
         })
     }
 
@@ -246,6 +247,7 @@ impl Grader {
                 refusal: refusal.cloned(),
                 notes: Vec::new(),
                 prints: scan::prints(&submission.source),
+                file_name: self.rubric.submission.name().to_owned(),
             },
             assignment: self.rubric.assignment.clone(),
             points: self.sum(&tasks),

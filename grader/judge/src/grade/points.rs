@@ -117,6 +117,9 @@ mod tests {
         let yaml = "
 assignment: a
 title: a
+submission: { file: a/x.rs, contract: path-tracer }
+techniques: [bsdf, nee, mis]
+reference_technique: mis
 tasks:
   - { id: one, title: one, points: 1, checks: [{ check: mis-weights, technique: mis, max_bounces: 3, required: true }] }
   - { id: two, title: two, points: 1, requires: [one], checks: [{ check: light-pick, technique: mis, max_bounces: 1, required: true }] }

@@ -10,12 +10,12 @@ use arty::scene::SceneDescription;
 use host::protocol::{RenderJob, Switches};
 
 use super::file::layer_name;
-use super::{Moments, Reference, ReferenceView, SIZE};
+use super::{Moments, Reference, ReferenceView, SIZE, Wanted};
 use crate::statistics::expected::Expected;
 use harness::build::SubmissionProgram;
 use harness::host_process::HostProcess;
 use verdict::error::{Error, Result};
-use verdict::rubric::{EmissionOnHit, View};
+use verdict::rubric::EmissionOnHit;
 
 /// Sample counts of a reference.
 #[derive(Clone, Copy, Debug)]
@@ -34,15 +34,13 @@ impl Default for Effort {
     }
 }
 
-/// The views that a scene's reference needs, with the techniques whose moments it records.
-pub type Wanted = BTreeMap<View, Vec<Technique>>;
-
-/// Renders the reference of one scene with the solution: by multiple importance sampling, or by next event estimation
-/// for views with `emission_on_hit: off`.
+/// Renders the reference of one scene with a solution and the reference technique of its assignment. Views with
+/// `emission_on_hit: off` are rendered with the technique that they are wanted for: others lack light there.
 pub fn make(
     solution: &SubmissionProgram,
     description: &SceneDescription,
     wanted: &Wanted,
+    reference_technique: Technique,
     effort: Effort,
     seed: u64,
 ) -> Result<Reference> {
@@ -53,7 +51,8 @@ pub fn make(
         let max_bounces = view.max_bounces;
         let emission_on_hit = view.emission_on_hit == EmissionOnHit::On;
         renderer.load(description, Switches { emission_on_hit })?;
-        let technique = if emission_on_hit { Technique::Mis } else { Technique::Nee };
+        let only = techniques.first().copied().filter(|_| !emission_on_hit);
+        let technique = only.unwrap_or(reference_technique);
         let settings = Settings { technique, max_bounces };
         let batches = renderer.render(SIZE, settings, effort.batches, effort.samples, seed)?;
         let (mean, variance) = mean_and_variance(&batches);

@@ -8,6 +8,7 @@
 mod file;
 mod make;
 mod oracle;
+mod wanted;
 
 use std::collections::BTreeMap;
 
@@ -17,8 +18,9 @@ use crate::statistics::expected::Expected;
 use verdict::rubric::View;
 
 pub use file::{load, save};
-pub use make::{Effort, Wanted, make, picture};
+pub use make::{Effort, make, picture};
 pub use oracle::Oracle;
+pub use wanted::{Wanted, wanted_of_all};
 
 /// Width and height in pixels of references and of the pictures compared with them.
 pub const SIZE: (u32, u32) = (16, 16);

@@ -8,7 +8,8 @@ use arty::scene::SceneDescription;
 
 use super::make::live;
 use crate::statistics::expected::Expected;
-use harness::build::{Framework, SubmissionProgram, compile, recipe};
+use harness::assignment::Assignment;
+use harness::build::{Framework, SubmissionProgram, compile};
 use harness::host_process::HostProcess;
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
@@ -16,7 +17,7 @@ use verdict::error::{Error, Result};
 use verdict::output;
 use verdict::submission::Submission;
 
-/// The solution of a checkout, compiled on first use.
+/// The solution of an assignment, compiled on first use.
 ///
 /// The compiled program and all expectations are cached in Cargo's target folder of the framework, under the hash of
 /// everything they depend on.
@@ -32,19 +33,19 @@ pub struct Oracle {
 }
 
 impl Oracle {
-    /// The solution of a checkout; `None` if the checkout does not have it.
+    /// The solution of an assignment; `None` if the checkout does not have it.
     ///
     /// # Errors
     /// If it cannot be read.
-    pub fn of(workspace: &Workspace, framework: &Framework) -> Result<Option<Self>> {
-        let path = workspace.solution_file();
+    pub fn of(workspace: &Workspace, assignment: &Assignment, framework: &Framework) -> Result<Option<Self>> {
+        let path = assignment.solution_file();
         if !path.is_file() {
             return Ok(None);
         }
         let mut hasher = blake3::Hasher::new();
         hasher.update(framework.hash.as_bytes());
         hasher.update(include_bytes!("make.rs"));
-        hasher.update(recipe().as_bytes());
+        hasher.update(framework.recipe().as_bytes());
         let submission = Submission::load_trusted(&path)?;
         hasher.update(submission.source.as_bytes());
         Ok(Some(Self {
@@ -60,10 +61,10 @@ impl Oracle {
     ///
     /// # Errors
     /// If the checkout does not have it, or it does not compile.
-    pub fn required(workspace: &Workspace) -> Result<Arc<SubmissionProgram>> {
-        Self::of(workspace, &Framework::build(workspace)?)?
+    pub fn required(workspace: &Workspace, assignment: &Assignment) -> Result<Arc<SubmissionProgram>> {
+        Self::of(workspace, assignment, &assignment.framework(workspace)?)?
             .ok_or_else(|| {
-                Error::file(&workspace.solution_file(), "this checkout does not have the solution")
+                Error::file(&assignment.solution_file(), "this checkout does not have the solution")
             })?
             .program()
     }

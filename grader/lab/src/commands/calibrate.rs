@@ -7,8 +7,7 @@ use std::time::{Duration, Instant};
 use crate::calibration::{Effort, Experiment, Results};
 use crate::mutants::{Kind, Ledger, Variant, hash_of_inputs, variants};
 use crate::output::write_text;
-use harness::assignment::Assignment;
-use harness::build::Framework;
+use harness::assignment::AssignmentOption;
 use harness::workspace::Workspace;
 use verdict::error::Result;
 
@@ -35,7 +34,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "MINUTES")]
     minutes: Option<f64>,
     #[command(flatten)]
-    assignment: Assignment,
+    assignment: AssignmentOption,
     /// Folder for the results; existing results are reused [default: target/calibration, and target/mutants for complete
     /// grades]
     #[arg(long, value_name = "DIR")]
@@ -47,37 +46,34 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let assigned = workspace.assignment(&arguments.assignment.name);
-    let rubric = assigned.rubric()?;
-    let assignment = arguments.assignment.name.as_str();
-    let (right, wrong): (Vec<Variant>, Vec<Variant>) = variants(&workspace, &assigned, &rubric)?
-        .list
-        .into_iter()
-        .partition(|variant| variant.kind == Kind::Right);
+    let assignment = arguments.assignment.open(&workspace)?;
+    let (folder_of_assignment, name) = (&assignment.folder, assignment.name.as_str());
+    let (right, wrong): (Vec<Variant>, Vec<Variant>) =
+        variants(&assignment)?.list.into_iter().partition(|variant| variant.kind == Kind::Right);
     let folder =
         |name: &str| arguments.out.clone().unwrap_or_else(|| workspace.root().join("target").join(name));
     let Arguments { resampled, power, rivals, grades, pool, minutes, jobs, .. } = *arguments;
     let mut experiment = Experiment {
         effort: Effort { resampled, power, rivals, grades, pool },
         workspace: &workspace,
-        assignment,
-        rubric: &rubric,
+        assignment: name,
+        rubric: &assignment.rubric,
         right: &right,
         wrong: &wrong,
-        framework: Framework::build(&workspace)?,
-        base: hash_of_inputs(&workspace, assignment)?,
+        framework: assignment.framework(&workspace)?,
+        base: hash_of_inputs(&workspace, name)?,
         threads: jobs.unwrap_or_else(rayon::current_num_threads).max(1),
         results: Results::open(&folder("calibration"))?,
-        ledger: Ledger::open(&folder("mutants"), &workspace, assignment)?,
+        ledger: Ledger::open(&folder("mutants"), &workspace, name)?,
         deadline: minutes.map(|minutes| Instant::now() + Duration::from_secs_f64(60.0 * minutes.max(0.0))),
     };
     experiment.run()?;
     let (tables, plot) = experiment.summary();
-    write_text(&assigned.calibration_table(), &tables)?;
-    eprintln!("tables: {}", assigned.calibration_table().display());
+    write_text(&folder_of_assignment.calibration_table(), &tables)?;
+    eprintln!("tables: {}", folder_of_assignment.calibration_table().display());
     if let Some(plot) = plot {
-        write_text(&assigned.calibration_plot(), &plot)?;
-        eprintln!("plot: {}", assigned.calibration_plot().display());
+        write_text(&folder_of_assignment.calibration_plot(), &plot)?;
+        eprintln!("plot: {}", folder_of_assignment.calibration_plot().display());
     }
     Ok(ExitCode::SUCCESS)
 }

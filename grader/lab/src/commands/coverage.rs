@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use crate::coverage::{Experiment, Records, table};
 use crate::output::write_text;
-use harness::assignment::Assignment;
+use harness::assignment::AssignmentOption;
 use harness::workspace::Workspace;
 use verdict::error::Result;
 
@@ -31,7 +31,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "MINUTES")]
     minutes: Option<f64>,
     #[command(flatten)]
-    assignment: Assignment,
+    assignment: AssignmentOption,
     /// Folder for the results; existing results are reused [default: target/coverage]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -39,16 +39,26 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
+    let assignment = arguments.assignment.open(&workspace)?;
     let Arguments { comparisons, planted, seconds, load, .. } = *arguments;
     let folder = arguments.out.clone().unwrap_or_else(|| workspace.root().join("target").join("coverage"));
     let mut records = Records::open(&folder)?;
     let after = |minutes: f64| Instant::now() + Duration::from_secs_f64(60.0 * minutes.max(0.0));
     let deadline = arguments.minutes.map(after);
-    Experiment { workspace: &workspace, comparisons, planted, seconds, load, deadline }.run(&mut records)?;
+    Experiment {
+        workspace: &workspace,
+        assignment: &assignment,
+        comparisons,
+        planted,
+        seconds,
+        load,
+        deadline,
+    }
+    .run(&mut records)?;
     let command = format!(
         "cargo lab coverage --comparisons={comparisons} --planted={planted} --seconds={seconds} --load={load}"
     );
-    let path = workspace.assignment(&arguments.assignment.name).coverage_table();
+    let path = assignment.folder.coverage_table();
     write_text(&path, &table(&records.current(), &command))?;
     eprintln!("table: {}", path.display());
     Ok(ExitCode::SUCCESS)

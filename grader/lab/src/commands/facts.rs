@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use crate::facts::{LearntFacts, leave_one_out, measure};
 use crate::mutants::{Kind, variants};
 use crate::output::{print, write_text};
-use harness::assignment::Assignment;
+use harness::assignment::AssignmentOption;
 use harness::workspace::Workspace;
 use judge::diagnosis::Catalogue;
 use verdict::error::Result;
@@ -16,7 +16,7 @@ use verdict::error::Result;
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     #[command(flatten)]
-    assignment: Assignment,
+    assignment: AssignmentOption,
     /// Seed of the random numbers
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -31,16 +31,16 @@ pub(super) struct Arguments {
 #[derive(clap::Args)]
 pub(super) struct LeaveOneOut {
     #[command(flatten)]
-    assignment: Assignment,
+    assignment: AssignmentOption,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let folder = workspace.assignment(&arguments.assignment.name);
-    let mut list = variants(&workspace, &folder, &folder.rubric()?)?.list;
+    let assignment = arguments.assignment.open(&workspace)?;
+    let mut list = variants(&assignment)?.list;
     let all = arguments.only.is_empty();
     list.retain(|variant| all || arguments.only.contains(&variant.id));
-    let learnt = measure(&workspace, &list, arguments.seed)?;
+    let learnt = measure(&assignment.framework(&workspace)?, &list, arguments.seed)?;
     let mut wrong = 0;
     for variant in &list {
         let Some(row) = learnt.row(&variant.id) else { continue };
@@ -52,7 +52,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     }
     if all {
         let made_by = format!("cargo lab facts --seed={}", arguments.seed);
-        let file = folder.facts_file();
+        let file = assignment.folder.facts_file();
         learnt.save(&file, &made_by)?;
         eprintln!("facts: {}", file.display());
     }
@@ -62,10 +62,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
 
 pub(super) fn run_leave_one_out(arguments: &LeaveOneOut) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let folder = workspace.assignment(&arguments.assignment.name);
+    let assignment = arguments.assignment.open(&workspace)?;
+    let folder = &assignment.folder;
     let learnt = LearntFacts::load(&folder.facts_file())?;
-    let variants = variants(&workspace, &folder, &folder.rubric()?)?.list;
-    let table = leave_one_out(&Catalogue::load(&folder)?, &learnt, &variants);
+    let variants = variants(&assignment)?.list;
+    let table = leave_one_out(&Catalogue::load(folder, &assignment.rubric)?, &learnt, &variants);
     let file = folder.leave_one_out_table();
     write_text(&file, &table)?;
     eprintln!("table: {}", file.display());

@@ -4,9 +4,9 @@ use std::process::ExitCode;
 
 use arty::image::write_png;
 
-use crate::figures::{FIGURES, render};
+use crate::figures::{figures, render};
 use crate::output::create_folder;
-use harness::assignment::Assignment;
+use harness::assignment::AssignmentOption;
 use harness::workspace::Workspace;
 use judge::reference::Oracle;
 use verdict::error::{Error, Result};
@@ -15,7 +15,7 @@ use verdict::error::{Error, Result};
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     #[command(flatten)]
-    assignment: Assignment,
+    assignment: AssignmentOption,
     /// Seed of all random numbers
     #[arg(long, default_value_t = 5)]
     seed: u64,
@@ -23,13 +23,15 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let folder = workspace.assignment(&arguments.assignment.name).figures();
+    let assignment = arguments.assignment.open(&workspace)?;
+    let folder = assignment.folder.figures();
     create_folder(&folder)?;
-    let program = Oracle::required(&workspace)?;
-    for (name, panels) in FIGURES {
-        eprintln!("{name} …");
-        let figure = render(&workspace, &program, panels, arguments.seed)?;
-        write_png(&folder.join(name), &figure, 0.0).map_err(|error| Error::Output(error.to_string()))?;
+    let program = Oracle::required(&workspace, &assignment)?;
+    for figure in figures(&assignment.folder)? {
+        eprintln!("{} …", figure.file);
+        let image = render(&workspace, &program, &figure.panels, arguments.seed)?;
+        write_png(&folder.join(&figure.file), &image, 0.0)
+            .map_err(|error| Error::Output(error.to_string()))?;
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use crate::handout;
 use crate::output::print;
-use harness::assignment::Assignment;
+use harness::assignment::AssignmentOption;
 use harness::workspace::Workspace;
 use verdict::error::Result;
 
@@ -16,12 +16,12 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "FILE.zip", default_value = "autograder.zip")]
     out: PathBuf,
     #[command(flatten)]
-    assignment: Assignment,
+    assignment: AssignmentOption,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let bytes = handout::autograder(&workspace, &arguments.assignment.name, &arguments.out)?;
+    let bytes = handout::autograder(&workspace, &arguments.assignment.open(&workspace)?, &arguments.out)?;
     let (out, megabytes) = (arguments.out.display(), bytes as f64 / 1e6);
     print(&format!("{out}: {megabytes:.1} MB; contains the solution, for staff only\n"))?;
     Ok(ExitCode::SUCCESS)

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use crate::handout;
 use crate::output::print;
-use harness::assignment::Assignment;
+use harness::assignment::AssignmentOption;
 use harness::workspace::Workspace;
 use verdict::check::Visibility;
 use verdict::error::Result;
@@ -17,19 +17,20 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     #[command(flatten)]
-    assignment: Assignment,
+    assignment: AssignmentOption,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let rubric = arguments.assignment.rubric(&workspace)?;
-    let summary = handout::make(&workspace, &arguments.assignment.name, &arguments.out)?;
+    let assignment = arguments.assignment.open(&workspace)?;
+    let rubric = &assignment.rubric;
+    let summary = handout::make(&workspace, &assignment, &arguments.out)?;
     let out = arguments.out.display();
     let (files, megabytes) = (summary.files, summary.bytes as f64 / 1e6);
     let staff = rubric.checks().filter(|(_, spec)| spec.visibility() == Visibility::StaffOnly).count();
     print(&format!(
         "{out}: {files} files, {megabytes:.1} MB\n\
-         verified: no eight consecutive tokens of the solution's task blocks are in it\n\
+         verified: no eight consecutive tokens that only the solution has are in it\n\
          staff-only checks, which a grade there skips: {staff}\n\
          try it: cd {out} && cargo grade\n"
     ))?;

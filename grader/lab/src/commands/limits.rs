@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use crate::limits::Measurement;
 use crate::output::{create_folder, print};
+use harness::assignment::AssignmentOption;
 use harness::workspace::Workspace;
 use judge::extreme::measure::ExtremeSceneResult;
 use judge::reference::Oracle;
@@ -21,6 +22,8 @@ pub(super) struct Arguments {
     /// Folder for tables and plots [default: grader/lab/limits]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    assignment: AssignmentOption,
     /// Seed of all random numbers
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -33,7 +36,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let measurement = Measurement::new(&arguments.only, arguments.seed)?;
     let folder = arguments.out.clone().unwrap_or_else(|| workspace.limits());
     create_folder(&folder)?;
-    let program = Oracle::required(&workspace)?;
+    let program = Oracle::required(&workspace, &arguments.assignment.open(&workspace)?)?;
     let measured = measurement.run(&workspace, &program, &folder)?;
     if arguments.only.is_empty() {
         measured.save(&folder, COMMAND)?;

@@ -7,7 +7,7 @@ use indicatif::ProgressBar;
 
 use crate::mutants::{Ledger, Outcome, Record, Variant, table, variants};
 use crate::output::{print, write_text};
-use harness::assignment::Assignment;
+use harness::assignment::AssignmentOption;
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
 use judge::grade::Options;
@@ -25,7 +25,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     seeds: u64,
     #[command(flatten)]
-    assignment: Assignment,
+    assignment: AssignmentOption,
     /// Folder for the results; existing results are reused [default: target/mutants]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -36,22 +36,22 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let assignment = workspace.assignment(&arguments.assignment.name);
-    let rubric = assignment.rubric()?;
-    let all = variants(&workspace, &assignment, &rubric)?;
+    let assignment = arguments.assignment.open(&workspace)?;
+    let all = variants(&assignment)?;
     let selected: Vec<&Variant> =
         all.list.iter().filter(|variant| is_selected(variant, &arguments.only)).collect();
     if selected.is_empty() {
         return Err(Error::Input("--only: there is no such variant, row or kind".to_owned()));
     }
     let folder = arguments.out.clone().unwrap_or_else(|| workspace.root().join("target/mutants"));
-    let mut ledger = Ledger::open(&folder, &workspace, &arguments.assignment.name)?;
+    let mut ledger = Ledger::open(&folder, &workspace, &assignment.name)?;
     let threads = arguments.jobs.unwrap_or_else(rayon::current_num_threads).max(1);
 
     let bar = ProgressBar::new(arguments.seeds * selected.len() as u64);
     for seed in 1..=arguments.seeds {
-        let assignment = arguments.assignment.name.clone();
-        let options = Options { assignment, seed, threads, only: Vec::new(), limits: Limits::default() };
+        let name = assignment.name.clone();
+        let options =
+            Options { assignment: name, seed, threads, only: Vec::new(), limits: Limits::default() };
         ledger.grade(&workspace, &selected, &options, || false, |_| bar.inc(1))?;
     }
     bar.finish_and_clear();
@@ -66,8 +66,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let records: Vec<Vec<&Record>> = all.list.iter().map(|variant| ledger.records(variant)).collect();
     // Only a complete matrix replaces the committed one.
     let is_complete = records.iter().all(|records| !records.is_empty());
-    let file = if is_complete { assignment.kill_matrix() } else { folder.join("kill-matrix.md") };
-    write_text(&file, &table(&all, &rubric, &records))?;
+    let file = if is_complete { assignment.folder.kill_matrix() } else { folder.join("kill-matrix.md") };
+    write_text(&file, &table(&all, &assignment.rubric, &records))?;
     eprintln!("kill matrix: {}", file.display());
     print(&format!("{unexpected} of {} variants have an unexpected outcome\n", selected.len()))?;
     Ok(ExitCode::from(u8::from(unexpected > 0)))

@@ -1,7 +1,10 @@
 //! `cargo lab reference`.
 
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use arty::image::exr::{ExrFile, Precision};
 use arty::integrator::{Settings, Technique};
@@ -21,13 +24,13 @@ const PICTURE_SIZE: (u32, u32) = (320, 256);
 /// Samples per pixel of these pictures.
 const PICTURE_SAMPLES: u64 = 256;
 
-/// Render references with the solution; the same seed gives identical files
+/// Render references with the solutions; the same seed gives identical files
+///
+/// A reference holds what the rubrics of all assignments need of its scene.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Names of scenes [default: all scenes that the assignment checks]
+    /// Names of scenes [default: all scenes that any assignment checks]
     scenes: Vec<String>,
-    #[command(flatten)]
-    assignment: Assignment,
     /// Seed of all random numbers
     #[arg(long, default_value_t = 20_190_501)]
     seed: u64,
@@ -41,31 +44,39 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let rubric = arguments.assignment.rubric(&workspace)?;
-    let mut wanted = rubric.scenes();
+    let mut wanted = reference::wanted_of_all(&workspace)?;
     if let Some(unknown) = arguments.scenes.iter().find(|scene| !wanted.contains_key(scene.as_str())) {
-        let known: Vec<&str> = wanted.keys().copied().collect();
+        let known: Vec<&str> = wanted.keys().map(String::as_str).collect();
         return Err(Error::Input(format!("no check uses a scene `{unknown}`; known: {}", known.join(", "))));
     }
-    wanted
-        .retain(|scene, _| arguments.scenes.is_empty() || arguments.scenes.iter().any(|name| name == scene));
+    wanted.retain(|scene, _| arguments.scenes.is_empty() || arguments.scenes.contains(scene));
 
-    let program = Oracle::required(&workspace)?;
+    let mut programs: BTreeMap<String, (Technique, Arc<SubmissionProgram>)> = BTreeMap::new();
     let count = wanted.len();
-    for (index, (scene, wanted)) in wanted.into_iter().enumerate() {
-        eprintln!("{scene} ({} of {count}) …", index + 1);
-        let description = load(&workspace.scene_file(scene))?.description;
+    for (index, (scene, (wanted, name))) in wanted.into_iter().enumerate() {
+        eprintln!("{scene} ({} of {count}), by {name} …", index + 1);
+        let (technique, program) = match programs.entry(name) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(place) => {
+                let assignment = Assignment::open(&workspace, place.key())?;
+                let program = Oracle::required(&workspace, &assignment)?;
+                place.insert((assignment.rubric.reference_technique, program))
+            }
+        };
+        let description = load(&workspace.scene_file(&scene))?.description;
         if !arguments.only_pictures {
-            let made = reference::make(&program, &description, &wanted, Effort::default(), arguments.seed)?;
-            let path = workspace.reference_file(scene);
+            let effort = Effort::default();
+            let made = reference::make(program, &description, &wanted, *technique, effort, arguments.seed)?;
+            let path = workspace.reference_file(&scene);
             create_folder(path.parent().unwrap_or(workspace.root()))?;
             reference::save(&made, &path)?;
         }
         if !arguments.no_pictures {
             let max_bounces = wanted.keys().next_back().map_or(1, |view| view.max_bounces);
-            let path = workspace.picture_file(scene);
+            let settings = Settings { technique: *technique, max_bounces };
+            let path = workspace.picture_file(&scene);
             create_folder(path.parent().unwrap_or(workspace.root()))?;
-            picture(&program, &description, max_bounces, arguments.seed, &path)?;
+            picture(program, &description, settings, arguments.seed, &path)?;
         }
     }
     Ok(ExitCode::SUCCESS)
@@ -75,15 +86,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
 fn picture(
     program: &SubmissionProgram,
     description: &SceneDescription,
-    max_bounces: u32,
+    settings: Settings,
     seed: u64,
     path: &Path,
 ) -> Result<()> {
-    let settings = Settings { technique: Technique::Mis, max_bounces };
     let picture = reference::picture(program, description, settings, PICTURE_SIZE, PICTURE_SAMPLES, seed)?;
     ExrFile::new(&picture)
         .with_metadata("arty:scene_hash", description.hash())
-        .with_metadata("arty:max_bounces", max_bounces.to_string())
+        .with_metadata("arty:max_bounces", settings.max_bounces.to_string())
         .write(path, Precision::Half)
         .map_err(|error| Error::Output(error.to_string()))
 }

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use crate::mutants::{Ledger, learn, variants};
 use crate::output::{print, write_text};
-use harness::assignment::Assignment;
+use harness::assignment::AssignmentOption;
 use harness::workspace::Workspace;
 use judge::diagnosis::Catalogue;
 use verdict::error::Result;
@@ -18,7 +18,7 @@ use verdict::error::Result;
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     #[command(flatten)]
-    assignment: Assignment,
+    assignment: AssignmentOption,
     /// Seed whose grades become signatures
     #[arg(long, value_name = "SEED", default_value_t = 1)]
     learn: u64,
@@ -29,18 +29,18 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let folder = workspace.assignment(&arguments.assignment.name);
-    let rubric = folder.rubric()?;
+    let assignment = arguments.assignment.open(&workspace)?;
+    let (folder, rubric) = (&assignment.folder, &assignment.rubric);
     let grades = arguments.grades.clone().unwrap_or_else(|| workspace.root().join("target/mutants"));
-    let ledger = Ledger::open(&grades, &workspace, &arguments.assignment.name)?;
-    let learnt = learn(&ledger, &variants(&workspace, &folder, &rubric)?.list, arguments.learn)?;
+    let ledger = Ledger::open(&grades, &workspace, &assignment.name)?;
+    let learnt = learn(&ledger, &variants(&assignment)?.list, rubric, arguments.learn)?;
 
     let made_by = format!("cargo lab signatures --learn={}", arguments.learn);
     let signatures = folder.signatures_file();
     let table = folder.confusion_table();
     learnt.signatures.save(&signatures, &made_by)?;
     learnt.cases.save(&folder.confusion_data(), &made_by)?;
-    let (confusion, early) = learnt.confusion(&Catalogue::load(&folder)?, &rubric);
+    let (confusion, early) = learnt.confusion(&Catalogue::load(folder, rubric)?, rubric);
     write_text(&table, &confusion.table(&made_by, &early))?;
 
     eprintln!("signatures: {}", signatures.display());

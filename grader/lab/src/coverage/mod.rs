@@ -11,9 +11,8 @@ mod table;
 
 use std::time::Instant;
 
-use arty::integrator::Technique;
-
-use harness::build::{Framework, SubmissionProgram, compile};
+use harness::assignment::Assignment;
+use harness::build::{SubmissionProgram, compile};
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
 use judge::convergence::{MeasuredProgram, Options, measure};
@@ -44,6 +43,8 @@ const LENGTHS: u32 = 4;
 pub struct Experiment<'a> {
     /// The checkout.
     pub workspace: &'a Workspace,
+    /// The assignment whose solution is measured.
+    pub assignment: &'a Assignment,
     /// Number of comparisons of the solution with itself, over all scenes and both loads.
     pub comparisons: u64,
     /// Number of comparisons with each planted program.
@@ -62,9 +63,8 @@ impl Experiment<'_> {
     /// # Errors
     /// If the harness fails, or a result cannot be written.
     pub fn run(&self, records: &mut Records) -> Result<()> {
-        let framework = Framework::build(self.workspace)?;
-        let source = std::fs::read_to_string(self.workspace.solution_file())
-            .map_err(|error| Error::file(&self.workspace.solution_file(), error))?;
+        let framework = self.assignment.framework(self.workspace)?;
+        let source = self.assignment.solution()?;
         let program = |source: &str| -> Result<SubmissionProgram> {
             compile(&framework, source, &Limits::default())?
                 .map_err(|failure| Error::Harness(format!("a planted program does not compile: {failure:?}")))
@@ -104,7 +104,7 @@ impl Experiment<'_> {
         let programs = [named("first", Role::Submission, program), named("second", Role::Solution, solution)];
         let options = Options {
             scenes: vec![record.scene.clone()],
-            techniques: vec![Technique::Mis],
+            techniques: vec![self.assignment.rubric.reference_technique],
             seconds: record.seconds,
             target: None,
             seed: record.seed,

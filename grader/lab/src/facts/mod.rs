@@ -4,7 +4,6 @@ mod leave_one_out;
 
 use harness::build::{Framework, compile};
 use harness::sandbox::Limits;
-use harness::workspace::Workspace;
 use judge::audit::audit;
 use rayon::prelude::*;
 use verdict::error::{Error, Result};
@@ -18,10 +17,9 @@ pub use leave_one_out::leave_one_out;
 ///
 /// # Errors
 /// If one does not compile, or the grader fails.
-pub fn measure(workspace: &Workspace, variants: &[Variant], seed: u64) -> Result<LearntFacts> {
-    let framework = Framework::build(workspace)?;
+pub fn measure(framework: &Framework, variants: &[Variant], seed: u64) -> Result<LearntFacts> {
     let row = |variant: &Variant| {
-        let program = compile(&framework, &variant.source, &Limits::default())?.map_err(|failure| {
+        let program = compile(framework, &variant.source, &Limits::default())?.map_err(|failure| {
             Error::Input(format!("variant {} does not compile:\n{}", variant.id, failure.messages))
         })?;
         let audit = audit(&program, seed)?;

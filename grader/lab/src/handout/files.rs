@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::manifests::{self, Audience};
+use harness::assignment::Assignment;
 use harness::workspace::Workspace;
 use verdict::error::{Error, Result};
 
@@ -71,14 +72,21 @@ const REWRITTEN: [(&str, Rewrite); 14] = [
 ];
 
 /// Paths and contents of the files for students, sorted by path.
-pub(super) fn for_students(workspace: &Workspace, assignment: &str) -> Result<Vec<(PathBuf, Vec<u8>)>> {
+pub(super) fn for_students(
+    workspace: &Workspace,
+    assignment: &Assignment,
+) -> Result<Vec<(PathBuf, Vec<u8>)>> {
     files(workspace, assignment, Audience::Students)
 }
 
-fn files(workspace: &Workspace, assignment: &str, audience: Audience) -> Result<Vec<(PathBuf, Vec<u8>)>> {
+fn files(
+    workspace: &Workspace,
+    assignment: &Assignment,
+    audience: Audience,
+) -> Result<Vec<(PathBuf, Vec<u8>)>> {
     let root = workspace.root();
-    let own = workspace.assignment(assignment);
-    let own = own.path().strip_prefix(root).unwrap_or(own.path()).to_owned();
+    let own = assignment.folder.path();
+    let own = own.strip_prefix(root).unwrap_or(own).to_owned();
     let mut files = Vec::new();
     for name in INCLUDED.into_iter().map(PathBuf::from).chain(OF_ASSIGNMENT.map(|name| own.join(name))) {
         collect(root, &name, &mut files)?;
@@ -101,6 +109,14 @@ fn files(workspace: &Workspace, assignment: &str, audience: Audience) -> Result<
         let text = rewrite(&text, audience).map_err(|message| Error::file(&path, message))?;
         files.push((PathBuf::from(name), text.into_bytes()));
     }
+    let starter = read(&assignment.folder.starter_file())?;
+    replace(&mut files, PathBuf::from(&assignment.rubric.submission.path), starter);
+    let overlay = assignment.folder.overlay();
+    if overlay.is_dir() {
+        let mut others = Vec::new();
+        collect(&overlay, Path::new(""), &mut others)?;
+        others.into_iter().for_each(|(path, bytes)| replace(&mut files, path, bytes));
+    }
     for (path, bytes) in files.iter_mut().filter(|(path, _)| path.starts_with("grader")) {
         if path.extension().is_some_and(|extension| extension == "rs") {
             without_tests(bytes);
@@ -108,6 +124,12 @@ fn files(workspace: &Workspace, assignment: &str, audience: Audience) -> Result<
     }
     files.sort();
     Ok(files)
+}
+
+/// Adds a file, in the place of one that has the same path.
+fn replace(files: &mut Vec<(PathBuf, Vec<u8>)>, path: PathBuf, bytes: Vec<u8>) {
+    files.retain(|(other, _)| *other != path);
+    files.push((path, bytes));
 }
 
 /// Removes the test module at the end of a source.
@@ -119,12 +141,15 @@ fn without_tests(source: &mut Vec<u8>) {
 }
 
 /// The same for the autograder: with the solution, which some checks compare with, and with the scenes of the staff.
-pub(super) fn for_grading(workspace: &Workspace, assignment: &str) -> Result<Vec<(PathBuf, Vec<u8>)>> {
+pub(super) fn for_grading(workspace: &Workspace, assignment: &Assignment) -> Result<Vec<(PathBuf, Vec<u8>)>> {
     let root = workspace.root();
     let mut files = files(workspace, assignment, Audience::Grading)?;
     for name in ["solution/Cargo.toml", "solution/src", "solution/benches"] {
         collect(root, Path::new(name), &mut files)?;
     }
+    let solution = assignment.solution_file();
+    let name = solution.strip_prefix(root).unwrap_or(&solution).to_owned();
+    replace(&mut files, name, read(&solution)?);
     for name in EXCLUDED.map(Path::new) {
         if root.join(name).is_dir() {
             collect(root, name, &mut files)?;

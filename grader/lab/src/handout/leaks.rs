@@ -4,24 +4,10 @@
 
 use std::collections::HashSet;
 
-use proc_macro2::TokenStream;
-
 /// Number of consecutive tokens that count as code of the solution. Shorter runs occur in any similar program.
 const RUN: usize = 8;
 
-/// Documented calls of the framework's interface, which reveal nothing. A run that continues beyond one of these is found
-/// all the same.
-const PHRASES: [&str; 7] = [
-    "sampler: &mut Sampler) -> Rgb { let ",
-    ") else { return Rgb::BLACK }; let (",
-    ") { return Rgb::BLACK; }",
-    "; let (wi, distance) = direction_and_distance(hit.point,",
-    ".technique == Technique::Bsdf",
-    "scene.lights().len() as f32",
-    "); let f = bsdf.eval(wi)",
-];
-
-/// The runs of tokens that occur in the solution's task blocks and nowhere else in it.
+/// The runs of tokens that only the solution has.
 #[derive(Clone, Debug)]
 pub struct Secrets {
     runs: HashSet<Vec<String>>,
@@ -37,39 +23,26 @@ pub struct Leak {
 }
 
 impl Secrets {
-    /// The runs of the blocks between `// TASK` and `// END` in the solution.
+    /// The runs of the solution's code where it differs from the starting file. `public` are phrases that reveal nothing,
+    /// such as documented calls of the framework; a run that continues beyond one of them is found all the same.
     ///
     /// # Errors
-    /// If there are no blocks, or they are not Rust.
-    pub fn of(solution: &str) -> Result<Self, String> {
-        let (mut runs, mut outside) = (HashSet::new(), String::new());
-        let mut block: Option<String> = None;
-        for line in solution.lines() {
-            let mark = line.trim_start();
-            if mark.starts_with("// TASK") {
-                block = Some(String::new());
-            } else if mark.starts_with("// END") {
-                let text = block.take().ok_or("an END without a TASK")?;
-                let stream: TokenStream =
-                    text.parse().map_err(|error| format!("a task block is no Rust: {error}"))?;
-                // As Rust's tokens, the code is without its comments.
-                let all = tokens(&stream.to_string());
-                runs.extend(all.windows(RUN).map(words));
-            } else if let Some(block) = &mut block {
-                block.push_str(line);
-                block.push('\n');
-            } else {
-                outside.push_str(line);
-                outside.push('\n');
-            }
+    /// If there are no such runs.
+    pub fn of(solution: &str, starter: &str, public: &[String]) -> Result<Self, String> {
+        let (solution, starter) = (code(solution), code(starter));
+        let mut runs = HashSet::new();
+        for block in added(&solution, &starter) {
+            runs.extend(tokens(&block).windows(RUN).map(words));
         }
-        // What stands outside of the blocks is the students' as well: it is the same in the starting file.
-        for text in PHRASES.into_iter().chain([outside.as_str()]) {
+        for text in public.iter().chain([&starter.join("\n")]) {
             for run in tokens(text).windows(RUN) {
                 runs.remove(&words(run));
             }
         }
-        if runs.is_empty() { Err("there are no task blocks in it".to_owned()) } else { Ok(Self { runs }) }
+        if runs.is_empty() {
+            return Err("its code does not differ from the starting file".to_owned());
+        }
+        Ok(Self { runs })
     }
 
     /// The first place of a text that holds some of it.
@@ -80,6 +53,37 @@ impl Secrets {
             self.runs.contains(&words).then(|| Leak { line: run[0].line, words: words.join(" ") })
         })
     }
+}
+
+/// The lines of code of a Rust source, without comments and indentation.
+fn code(source: &str) -> Vec<String> {
+    let lines = source.lines().map(|line| line.split("//").next().unwrap_or_default().trim().to_owned());
+    lines.filter(|line| !line.is_empty()).collect()
+}
+
+/// Groups of consecutive lines of `new` that are not in `old`, by a longest common subsequence.
+fn added(new: &[String], old: &[String]) -> Vec<String> {
+    let mut common = vec![vec![0_usize; old.len() + 1]; new.len() + 1];
+    for (i, line) in new.iter().enumerate().rev() {
+        for (j, other) in old.iter().enumerate().rev() {
+            common[i][j] =
+                if line == other { common[i + 1][j + 1] + 1 } else { common[i + 1][j].max(common[i][j + 1]) };
+        }
+    }
+    let (mut j, mut group, mut groups) = (0, Vec::new(), Vec::new());
+    for (i, line) in new.iter().enumerate() {
+        while j < old.len() && *line != old[j] && common[i][j + 1] == common[i][j] {
+            j += 1;
+        }
+        if old.get(j) == Some(line) && common[i][j] == common[i + 1][j + 1] + 1 {
+            groups.push(std::mem::take(&mut group));
+            j += 1;
+        } else {
+            group.push(line.as_str());
+        }
+    }
+    groups.push(group);
+    groups.into_iter().filter(|group| !group.is_empty()).map(|group| group.join("\n")).collect()
 }
 
 struct Token {
@@ -123,12 +127,12 @@ fn tokens(text: &str) -> Vec<Token> {
 mod tests {
     use super::*;
 
-    const SOLUTION: &str =
-        "fn f() {\n    // TASK 1: what?\n    // Why.\n    let p = q * 2.0 / (r + s.t);\n    // END 1\n}\n";
+    const STARTER: &str = "fn f() {\n    // TASK 1: what?\n    0.0\n    // END 1\n}\n";
+    const SOLUTION: &str = "fn f() {\n    // TASK 1: what?\n    // Why.\n    let p = q * 2.0 / (r + s.t); // So.\n    // END 1\n}\n";
 
     #[test]
     fn a_run_of_the_solution_is_found_however_it_is_laid_out() {
-        let secrets = Secrets::of(SOLUTION).expect("it has a block");
+        let secrets = Secrets::of(SOLUTION, STARTER, &[]).expect("they differ");
         for text in [
             "x\nlet p = q * 2.0 / (r",
             "x\n\tlet\tp=q*2.0/(r",
@@ -137,15 +141,26 @@ mod tests {
         ] {
             assert_eq!(secrets.find(text).map(|leak| leak.line), Some(2), "{text}");
         }
-        for text in ["let p = q * 2.0 / x", "let p = q * 3.0 / (r - s.t)", ""] {
+        for text in ["let p = q * 2.0 / x", "let p = q * 3.0 / (r - s.t)", "", STARTER] {
             assert_eq!(secrets.find(text), None, "{text}");
         }
     }
 
     #[test]
-    fn a_file_without_blocks_is_no_solution() {
-        for text in ["fn f() {}", "// TASK 1\n// END 1\n", "// END 1\n", "// TASK 1\n(\n// END 1\n"] {
-            assert!(Secrets::of(text).is_err(), "{text}");
+    fn a_public_phrase_is_no_secret_and_what_goes_on_from_it_is_one() {
+        let public = ["let p = q * 2.0 / (".to_owned()];
+        let secrets = Secrets::of(SOLUTION, STARTER, &public).expect("they differ");
+        assert_eq!(secrets.find("let p = q * 2.0 / ("), None);
+        assert!(secrets.find("let p = q * 2.0 / (r + s").is_some());
+    }
+
+    #[test]
+    fn a_solution_without_marks_is_searched_for_where_it_differs() {
+        let (starter, solution) = ("fn f() {\n0.0\n}\n", "fn f() {\nlet p = q * 2.0 / (r + s.t);\np\n}\n");
+        let secrets = Secrets::of(solution, starter, &[]).expect("they differ");
+        assert!(secrets.find("q * 2.0 / (r + s").is_some());
+        for same in ["fn f() {}", starter] {
+            assert!(Secrets::of(same, same, &[]).is_err(), "{same}");
         }
     }
 }

@@ -12,7 +12,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::output::failed;
+use harness::assignment::Assignment;
 use harness::workspace::Workspace;
+use serde::Deserialize;
 use verdict::error::{Error, Result};
 
 pub use gradescope::autograder;
@@ -32,18 +34,11 @@ pub struct Summary {
 /// # Errors
 /// If the folder is not empty, this checkout has no solution to search for, or a file of the handout holds code of the
 /// solution. Nothing is written then.
-pub fn make(workspace: &Workspace, assignment: &str, out: &Path) -> Result<Summary> {
+pub fn make(workspace: &Workspace, assignment: &Assignment, out: &Path) -> Result<Summary> {
     if std::fs::read_dir(out).is_ok_and(|mut entries| entries.next().is_some()) || out.is_file() {
         return Err(Error::file(out, "exists already: choose a new or empty folder"));
     }
-    let solution = workspace.solution_file();
-    let text = std::fs::read_to_string(&solution).map_err(|error| {
-        Error::file(
-            &solution,
-            format!("{error} (a handout can only be made in a checkout with the solution)"),
-        )
-    })?;
-    let secrets = Secrets::of(&text).map_err(|message| Error::file(&solution, message))?;
+    let secrets = secrets(assignment)?;
     let given = files::for_students(workspace, assignment)?;
     for (path, bytes) in &given {
         if let Some(leak) = secrets.find(&String::from_utf8_lossy(bytes)) {
@@ -54,6 +49,28 @@ pub fn make(workspace: &Workspace, assignment: &str, out: &Path) -> Result<Summa
     write(&given, out)?;
     let bytes = given.iter().map(|(_, bytes)| bytes.len() as u64).sum();
     Ok(Summary { files: given.len(), bytes })
+}
+
+/// Contents of `leaks.yml`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LeaksFile {
+    public: Vec<String>,
+}
+
+/// What must not be in a handout of the assignment.
+///
+/// # Errors
+/// If this checkout has no solution, or the solution does not differ from the starting file.
+pub fn secrets(assignment: &Assignment) -> Result<Secrets> {
+    let file = assignment.solution_file();
+    if !assignment.has_solution() {
+        return Err(Error::file(&file, "a handout can only be made in a checkout with the solution"));
+    }
+    let leaks = assignment.folder.leaks_file();
+    let public = if leaks.is_file() { arty::yaml::read::<LeaksFile>(&leaks)?.0.public } else { Vec::new() };
+    Secrets::of(&assignment.solution()?, &assignment.folder.starter()?, &public)
+        .map_err(|message| Error::file(&file, message))
 }
 
 /// Writes the files to a temporary folder, and renames that once it is complete.

@@ -22,11 +22,12 @@ pub struct Learnt {
 ///
 /// # Errors
 /// If a wrong variant was not graded with the seed to learn from, or a report cannot be read.
-pub fn learn(ledger: &Ledger, variants: &[Variant], seed: u64) -> Result<Learnt> {
+pub fn learn(ledger: &Ledger, variants: &[Variant], rubric: &Rubric, seed: u64) -> Result<Learnt> {
+    let techniques = rubric.student_techniques();
     let mut learnt = Learnt::default();
     for variant in variants {
         for record in ledger.records(variant) {
-            let vector = ObservationVector::of(&ledger.report(record)?);
+            let vector = ObservationVector::of(&ledger.report(record)?, &techniques);
             if record.seed != seed || variant.kind == Kind::Right {
                 learnt.cases.insert(&variant.id, record.seed, vector);
             } else {

@@ -5,10 +5,8 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use harness::assignment_folder::AssignmentFolder;
-use harness::workspace::Workspace;
+use harness::assignment::Assignment;
 use verdict::error::{Error, Result};
-use verdict::rubric::Rubric;
 
 /// Whether a variant is correct.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,12 +106,12 @@ struct Replace {
 ///
 /// # Errors
 /// The first entry that does not fit the solution or the rubric.
-pub fn variants(workspace: &Workspace, assignment: &AssignmentFolder, rubric: &Rubric) -> Result<Variants> {
+pub fn variants(assignment: &Assignment) -> Result<Variants> {
     let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| Error::file(path, error));
-    let solution = read(&workspace.solution_file())?.replace("\r\n", "\n");
+    let solution = assignment.solution()?;
     let tasks: Vec<&str> =
-        rubric.tasks.iter().filter(|task| !task.manual).map(|task| task.id.as_str()).collect();
-    let folder = assignment.variants();
+        assignment.rubric.tasks.iter().filter(|task| !task.manual).map(|task| task.id.as_str()).collect();
+    let folder = assignment.folder.variants();
     let mut all = Variants { list: Vec::new(), not_possible: Vec::new() };
     let mut ids = BTreeSet::new();
     for kind in [Kind::Wrong, Kind::Right] {

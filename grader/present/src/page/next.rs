@@ -26,7 +26,7 @@ pub(super) fn section(report: &Report) -> Markup {
                 Some(replay) => (replay),
                 None => (words::repeat_command(report, &next.check.id)),
             } } }
-            @if let Some(note) = words::prints(&report.submission.prints) { p.soft { (prose(&note)) } }
+            @if let Some(note) = words::prints(&report.submission.file_name, &report.submission.prints) { p.soft { (prose(&note)) } }
         }
     }
 }

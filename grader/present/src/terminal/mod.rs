@@ -74,11 +74,12 @@ fn write_summary(
         Detail::All => all::write(out, report, width)?,
     }
     write_explanations(out, report, width)?;
+    let file = harmless(&report.submission.file_name);
     for SourceFinding { line, what, why } in &report.sandbox.findings {
-        let text = format!("violation: render_pt.rs:{line}: {what}: {why}; the sandbox refuses it");
+        let text = format!("violation: {file}:{line}: {what}: {why}; the sandbox refuses it");
         paragraph(out, "", &text, width)?;
     }
-    words::prints(&report.submission.prints).map_or(Ok(()), |note| paragraph(out, "", &note, width))
+    words::prints(&file, &report.submission.prints).map_or(Ok(()), |note| paragraph(out, "", &note, width))
 }
 
 /// What was sent with the file, for the tutor who grades it.

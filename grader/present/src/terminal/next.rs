@@ -38,7 +38,7 @@ fn write_next(
         paragraph(out, "  ", &paint(&Verdict::Pass, &done), width)?;
     }
     // Where nothing has been filled in, a failed check says nothing new.
-    if !matches!(next.cause.map(|diagnosis| &diagnosis.cause), Some(Cause::NotBegun)) {
+    if !matches!(next.cause.map(|diagnosis| &diagnosis.cause), Some(Cause::NotBegun { .. })) {
         writeln!(out, "  {}  {}", paint(&check.verdict, loud(&check.verdict)), check.id)?;
         paragraph(out, "    ", &words::explanation(check), width)?;
     }

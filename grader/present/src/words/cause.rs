@@ -42,9 +42,13 @@ pub fn title(cause: &Cause) -> String {
                 trimmed(*factor, 2)
             );
         }
-        Cause::NotBegun => "Nothing has been filled in yet: this is the starting file",
+        Cause::NotBegun { .. } => "Nothing has been filled in yet: this is the starting file",
         Cause::BsdfChanged => "With `bsdf`, the program is no longer plain BSDF sampling",
-        Cause::MisNotBegun => "MIS has not been started: the file never checks for the technique `mis`",
+        Cause::TechniqueNotBegun { technique, name, .. } => {
+            return format!(
+                "`{technique}` has not been started: the file never checks for the technique `{name}`"
+            );
+        }
     };
     text.to_owned()
 }
@@ -55,7 +59,7 @@ pub fn hint(cause: &Cause) -> &str {
         Cause::Known { hint, .. } => hint,
         Cause::Unknown { .. } | Cause::FailedFact(_) => "",
         Cause::NothingToCompile => {
-            "Submit your render_pt.rs by itself, or in a folder or an archive. `cargo grader pack` creates such an archive."
+            "Submit your source file by itself, or in a folder or an archive. `cargo grader pack` creates such an archive."
         }
         Cause::DoesNotCompile => {
             "Start with the first error; later ones often follow from it. `cargo arty` shows the same messages in a second. \
@@ -67,8 +71,8 @@ pub fn hint(cause: &Cause) -> &str {
              scene with `cargo arty` to see the line."
         }
         Cause::TodoLeft => {
-            "The program panics there. Until a technique is finished, let it fall back to plain BSDF sampling, as the \
-             starting file does, so that the others can be graded."
+            "The program panics there. Until a part is finished, let it do what the starting file does, so that the others \
+             can be graded."
         }
         Cause::DoesNotFinish { .. } => {
             "Look for an endless loop, and for work per bounce that grows with the number of lights. A path has at most \
@@ -78,19 +82,11 @@ pub fn hint(cause: &Cause) -> &str {
             "A constant factor is missing, or is applied once too often. Write down the estimator for one point on one light \
              with all its factors, note where each comes from, and compare it with your product."
         }
-        Cause::NotBegun => {
-            "Start with the first task: at each hit point, choose a random point on a random light, test whether it is \
-             visible, and add the light it reflects to the viewer. Try scenes/cornell_box_point.yml with `--technique=nee \
-             --max-bounces=1`: BSDF sampling never hits a point light, so all the light you see there is yours."
-        }
         Cause::BsdfChanged => {
             "Figure 3 compares all three techniques, and `bsdf` is what the starting file did. Which of the contributions that \
              you have added, and which weights, must not apply to it?"
         }
-        Cause::MisNotBegun => {
-            "First get all points for `nee`. Then write down, for one point on a light, the two densities with which it can \
-             be found, both per solid angle; the weights follow from them."
-        }
+        Cause::NotBegun { hint } | Cause::TechniqueNotBegun { hint, .. } => hint,
     }
 }
 
@@ -120,11 +116,9 @@ pub fn seen(report: &Report, diagnosis: &Diagnosis) -> String {
         Cause::ConstantFactor { scenes, .. } => {
             format!("direct light is off by this factor in {}", super::number::list(scenes))
         }
-        Cause::NotBegun => {
-            "all blocks marked TASK … END are unchanged, so every technique is plain BSDF sampling".to_owned()
-        }
-        Cause::MisNotBegun => {
-            "the weights ignore the densities, and no line of the file mentions `Mis`".to_owned()
+        Cause::NotBegun { .. } => "all blocks marked TASK … END are unchanged".to_owned(),
+        Cause::TechniqueNotBegun { name, .. } => {
+            format!("the weights ignore the densities, and no line of the file mentions `{name}`")
         }
         Cause::BsdfChanged | Cause::Known { .. } => in_checks(report, diagnosis),
     }

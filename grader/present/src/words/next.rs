@@ -64,11 +64,11 @@ pub fn finish(report: &Report) -> Option<String> {
 }
 
 /// What to know about printing; `None` if the source does not print.
-pub fn prints(lines: &[usize]) -> Option<String> {
+pub fn prints(file: &str, lines: &[usize]) -> Option<String> {
     let (first, more) = (lines.first()?, lines.len() - 1);
     let more = if more == 0 { String::new() } else { format!(" and {more} more") };
     Some(format!(
-        "note: your program prints (render_pt.rs:{first}{more}): a grade discards it; `cargo grader replay` and `cargo arty` \
+        "note: your program prints ({file}:{first}{more}): a grade discards it; `cargo grader replay` and `cargo arty` \
          show it"
     ))
 }
@@ -121,8 +121,8 @@ mod tests {
 
     #[test]
     fn printing_is_said_with_its_lines() {
-        assert_eq!(prints(&[]), None);
-        let said = prints(&[7, 9]).expect("it prints");
-        assert!(said.contains("render_pt.rs:7 and 1 more"), "{said}");
+        assert_eq!(prints("a.rs", &[]), None);
+        let said = prints("a.rs", &[7, 9]).expect("it prints");
+        assert!(said.contains("a.rs:7 and 1 more"), "{said}");
     }
 }

@@ -10,6 +10,7 @@ use arty::integrator::Technique;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use external::External;
+use harness::assignment::AssignmentOption;
 use harness::workspace::Workspace;
 use judge::convergence::{MeasuredProgram, Options, crops, measure};
 use present::convergence::{Axis, page, print_table, save_csv, save_json, svg};
@@ -18,6 +19,7 @@ use programs::Programs;
 use verdict::convergence::{Convergence, DEFAULT_SCENES};
 use verdict::error::Result;
 use verdict::output;
+use verdict::rubric::Rubric;
 
 /// Measure the error of submissions against run time, in comparison with the solution and plain BSDF sampling
 ///
@@ -28,8 +30,10 @@ use verdict::output;
 /// convergence.html with plots over time, samples and rays, and crops at equal time.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Submissions, each a render_pt.rs or a folder with one in it [default: the student file in the skeleton]
+    /// Submissions, each a source file or a folder with one in it [default: the student file of the assignment]
     submissions: Vec<PathBuf>,
+    #[command(flatten)]
+    assignment: AssignmentOption,
     /// Compare with another submission, or with a .csv of measurements from elsewhere (columns scene, seconds, relative_mse;
     /// optionally technique and program); repeatable
     #[arg(long, value_name = "OTHER")]
@@ -37,7 +41,7 @@ pub(super) struct Arguments {
     /// Scene by name; repeatable [default: cornell_box, cornell_box_glossy, veach_mis, many_lights]
     #[arg(long, value_name = "SCENE")]
     scene: Vec<String>,
-    /// Technique; repeatable [default: nee and mis]
+    /// Technique; repeatable [default: those that students write]
     #[arg(long, value_name = "TECHNIQUE")]
     technique: Vec<Technique>,
     /// Total processor time in seconds
@@ -68,9 +72,10 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
     let is_table = |path: &&PathBuf| path.extension().is_some_and(|extension| extension == "csv");
     let (tables, rivals): (Vec<&PathBuf>, Vec<&PathBuf>) = arguments.against.iter().partition(is_table);
     let external = tables.into_iter().map(|path| External::load(path)).collect::<Result<Vec<_>>>()?;
-    let options = arguments.options();
+    let assignment = arguments.assignment.open(workspace)?;
+    let options = arguments.options(&assignment.rubric);
     external.iter().try_for_each(|external| external.check(&options.scenes))?;
-    let programs = Programs::build(&arguments.submissions, &rivals, workspace)?;
+    let programs = Programs::build(&arguments.submissions, &rivals, workspace, &assignment)?;
     let measured = programs.measured();
     let progress = progress_bar();
     let mut convergence =
@@ -84,14 +89,14 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
 }
 
 impl Arguments {
-    fn options(&self) -> Options {
+    fn options(&self, rubric: &Rubric) -> Options {
         Options {
             scenes: match self.scene.as_slice() {
                 [] => DEFAULT_SCENES.map(str::to_owned).to_vec(),
                 given => given.to_vec(),
             },
             techniques: match self.technique.as_slice() {
-                [] => vec![Technique::Nee, Technique::Mis],
+                [] => rubric.student_techniques(),
                 given => given.to_vec(),
             },
             seconds: self.seconds,

@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::commands::intake::reader;
-use harness::build::{Framework, SubmissionProgram, compile};
+use crate::commands::intake::{reader, wanted};
+use harness::assignment::Assignment;
+use harness::build::{SubmissionProgram, compile};
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
 use judge::convergence::MeasuredProgram;
@@ -30,22 +31,29 @@ pub(super) struct Programs {
 
 impl Programs {
     /// Compiles submissions, without any the student file, their rivals, and the solution.
-    pub(super) fn build(paths: &[PathBuf], rivals: &[&PathBuf], workspace: &Workspace) -> Result<Self> {
-        let mut paths = if paths.is_empty() { vec![workspace.student_file()] } else { paths.to_vec() };
+    pub(super) fn build(
+        paths: &[PathBuf],
+        rivals: &[&PathBuf],
+        workspace: &Workspace,
+        assignment: &Assignment,
+    ) -> Result<Self> {
+        let mut paths = if paths.is_empty() { vec![assignment.student_file()] } else { paths.to_vec() };
         let count = paths.len();
         paths.extend(rivals.iter().copied().cloned());
-        let sources = paths.iter().map(|path| reader().read(path)).collect::<Result<Vec<_>>>()?;
-        let framework = Framework::build(workspace)?;
+        let wanted = wanted(assignment)?;
+        let sources = paths.iter().map(|path| reader().read(path, &wanted)).collect::<Result<Vec<_>>>()?;
+        let framework = assignment.framework(workspace)?;
         let mut left_out = Vec::new();
         let (mut submissions, mut rivals) = (Vec::new(), Vec::new());
-        for (index, (submission, name)) in sources.iter().zip(names(&paths)).enumerate() {
+        for (index, (submission, name)) in sources.iter().zip(names(&paths, &wanted.file_name)).enumerate() {
             let list = if index < count { &mut submissions } else { &mut rivals };
             match compile(&framework, &submission.source, &Limits::default())? {
                 Ok(program) => list.push((name, program)),
                 Err(_) => left_out.push(everywhere(name, "it does not compile")),
             }
         }
-        let solution = Oracle::of(workspace, &framework)?.map(|oracle| oracle.program()).transpose()?;
+        let solution =
+            Oracle::of(workspace, assignment, &framework)?.map(|oracle| oracle.program()).transpose()?;
         if solution.is_none() {
             left_out.push(everywhere("the solution".to_owned(), "this checkout does not have it"));
         }
@@ -74,8 +82,8 @@ fn everywhere(program: String, why: &str) -> NotMeasured {
 
 /// Names of submissions: the file, or the folder of a file with the usual name. The whole path where several would have
 /// the same name.
-fn names(paths: &[PathBuf]) -> Vec<String> {
-    let all: Vec<String> = paths.iter().map(|path| short_name(path)).collect();
+fn names(paths: &[PathBuf], usual: &str) -> Vec<String> {
+    let all: Vec<String> = paths.iter().map(|path| short_name(path, usual)).collect();
     let is_unique = |name: &String| {
         // The solution and its BSDF sampling are measured beside them.
         all.iter().filter(|other| *other == name).count() == 1 && name != SOLUTION && name != BASELINE
@@ -89,8 +97,8 @@ fn names(paths: &[PathBuf]) -> Vec<String> {
 /// Folders within a crate, which say nothing about whose file it is.
 const INNER_FOLDERS: [&str; 2] = ["src", "algorithms"];
 
-fn short_name(path: &Path) -> String {
-    let is_named = path.file_name().is_some_and(|name| name != verdict::submission::FILE_NAME);
+fn short_name(path: &Path, usual: &str) -> String {
+    let is_named = path.file_name().is_some_and(|name| name != usual);
     let name = if path.is_dir() {
         path.file_name()
     } else if is_named {
@@ -109,13 +117,13 @@ mod tests {
     #[test]
     fn submissions_of_the_same_name_are_told_apart_by_their_paths() {
         let paths = ["a/render_pt.rs", "b.rs", "x/c.rs", "y/c.rs"].map(PathBuf::from);
-        assert_eq!(names(&paths), ["a", "b", "x/c.rs", "y/c.rs"]);
+        assert_eq!(names(&paths, "render_pt.rs"), ["a", "b", "x/c.rs", "y/c.rs"]);
     }
 
     #[test]
     fn a_file_is_named_after_the_folder_that_tells_whose_it_is() {
         let paths =
             ["class/ada/src/algorithms/render_pt.rs", "solution/src/algorithms/render_pt.rs", "render_pt.rs"];
-        assert_eq!(names(&paths.map(PathBuf::from)), ["ada", paths[1], "render_pt.rs"]);
+        assert_eq!(names(&paths.map(PathBuf::from), "render_pt.rs"), ["ada", paths[1], "render_pt.rs"]);
     }
 }

@@ -6,8 +6,12 @@ mod lock;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use ::intake::{Reader, serve};
+use ::intake::{Reader, Wanted, serve};
+use harness::assignment::Assignment;
+use harness::workspace::Workspace;
 use verdict::error::Result;
+use verdict::report::Report;
+use verdict::submission::Submission;
 
 /// Read one submission for the grader that started this process
 #[derive(clap::Args)]
@@ -28,6 +32,20 @@ pub(super) fn reader() -> Reader {
         return Reader::Apart(link.to_owned());
     }
     std::env::current_exe().map_or(Reader::Here, Reader::Apart)
+}
+
+/// What is looked for in submissions of an assignment.
+///
+/// # Errors
+/// If its starting file cannot be read.
+pub(super) fn wanted(assignment: &Assignment) -> Result<Wanted> {
+    Ok(Wanted::new(&assignment.rubric.submission, &assignment.folder.starter()?))
+}
+
+/// The source that a report is about; `None` if it cannot be read any more.
+pub(super) fn source_of(report: &Report) -> Option<Submission> {
+    let assignment = Assignment::open(&Workspace::find().ok()?, &report.provenance.assignment).ok()?;
+    reader().read(report.submission.path.as_ref(), &wanted(&assignment).ok()?).ok()
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {

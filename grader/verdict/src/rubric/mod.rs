@@ -11,9 +11,11 @@ use crate::report::Step;
 
 mod check;
 mod rules;
+mod student_file;
 
 pub use check::{CheckSpec, EmissionOnHit, SCRIPTED, View, rivals};
 pub use rules::{LateRule, Md5Rule, Rules, zone};
+pub use student_file::{Contract, StudentFile};
 
 /// The contents of `rubric.yml`.
 #[derive(Clone, Debug, Deserialize)]
@@ -23,11 +25,42 @@ pub struct Rubric {
     pub assignment: String,
     /// Title of the assignment.
     pub title: String,
+    /// What students hand in.
+    pub submission: StudentFile,
+    /// Techniques that the program offers, in the order of pictures. The first is what it had before: the baseline.
+    pub techniques: Vec<Technique>,
+    /// Techniques that students write; those of all checks if it is missing.
+    #[serde(default)]
+    student_techniques: Option<Vec<Technique>>,
+    /// Technique that the solution renders references and pictures with.
+    pub reference_technique: Technique,
+    /// What to begin with, for those who have not begun.
+    #[serde(default)]
+    pub begin: String,
+    /// Scenes of the pictures of a report, beside those that are wrong.
+    #[serde(default)]
+    pub pictures: Vec<String>,
+    /// How to recognise techniques that a submission has not begun.
+    #[serde(default)]
+    pub not_begun: Vec<NotBegun>,
     /// Rules for late submissions; without them, no submission is late.
     #[serde(default)]
     pub policy: Option<Rules>,
     /// Tasks, in the order of the sheet.
     pub tasks: Vec<Task>,
+}
+
+/// A technique counts as not begun if the source never names it outside of comments, and its weights are constant.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NotBegun {
+    /// The technique.
+    pub technique: Technique,
+    /// Its name in a source.
+    pub name: String,
+    /// What to begin with.
+    #[serde(default)]
+    pub hint: String,
 }
 
 /// One task of the sheet.
@@ -82,6 +115,11 @@ impl Rubric {
 
     fn validate(&self) -> std::result::Result<(), String> {
         self.policy.as_ref().map_or(Ok(()), Rules::validate)?;
+        self.submission.validate()?;
+        if !self.techniques.contains(&self.reference_technique) {
+            let wanted = self.reference_technique;
+            return Err(format!("`reference_technique` is {wanted}, which is not one of `techniques`"));
+        }
         for task in &self.tasks {
             let id = &task.id;
             if !(task.points.is_finite() && task.points > 0.0) {
@@ -104,6 +142,12 @@ impl Rubric {
                 }
             }
             for check in &task.checks {
+                if !self.techniques.contains(&check.technique) {
+                    return Err(format!(
+                        "task {id}, {}: this technique is not one of `techniques`",
+                        check.id()
+                    ));
+                }
                 check.validate().map_err(|message| format!("task {id}, {}: {message}", check.id()))?;
             }
             if let Some(twice) = task.checks.iter().enumerate().find_map(|(index, check)| {
@@ -114,6 +158,20 @@ impl Rubric {
             }
         }
         Ok(())
+    }
+
+    /// The techniques that students write, in the order of all techniques.
+    pub fn student_techniques(&self) -> Vec<Technique> {
+        let is_graded = |technique: &Technique| self.checks().any(|(_, spec)| spec.technique == *technique);
+        match &self.student_techniques {
+            Some(named) => named.clone(),
+            None => self.techniques.iter().copied().filter(is_graded).collect(),
+        }
+    }
+
+    /// The technique that others are compared with; `None` if there is no other.
+    pub fn baseline(&self) -> Option<Technique> {
+        self.techniques.first().copied().filter(|&first| first != self.reference_technique)
     }
 
     /// All checks, each with its task.
@@ -152,19 +210,20 @@ mod tests {
         Rubric::load(&path).map_err(|error| error.to_string())
     }
 
+    const HEAD: &str = "assignment: a\ntitle: t\nsubmission: {file: a/x.rs, contract: path-tracer}\n\
+        techniques: [bsdf, nee]\nreference_technique: nee\n";
+
     const CHECK: &str = "{check: mean-bias, scene: a, technique: nee, max_bounces: 1";
 
     #[test]
     fn each_mistake_in_a_rubric_has_its_own_message() {
-        let task = |rest: &str| {
-            format!("assignment: a\ntitle: t\ntasks:\n- {{id: x, title: t, points: 1, {rest}}}\n")
-        };
+        let task = |rest: &str| format!("{HEAD}tasks:\n- {{id: x, title: t, points: 1, {rest}}}\n");
         for (text, expected) in [
             (task("manual: false"), "either `manual: true` or a list of `checks`"),
             (task(&format!("checks: [{CHECK}}}]")), "required: true"),
             (task(&format!("checks: [{CHECK}, required: true, weight: -1}}]")), "`weight` must be"),
             (task(&format!("checks: [{CHECK}, required: true, tolerance: 2}}]")), "`tolerance` must be"),
-            (task(&format!("checks: [{CHECK}, required: true, colour: 2}}]")), "rubric.yml:4: "),
+            (task(&format!("checks: [{CHECK}, required: true, colour: 2}}]")), "rubric.yml:7: "),
             (task(&format!("checks: [{CHECK}, evidence: true}}]")), "`evidence` is now called `required`"),
             (
                 task(&format!("checks: [{CHECK}, required: true, hits: off}}]")),
@@ -174,7 +233,13 @@ mod tests {
                 task("checks: [{check: mean-bias, technique: nee, max_bounces: 3, required: true}]"),
                 "needs a `scene`",
             ),
-            (task(&format!("checks: [{CHECK}, required: true, emission_on_hit: no}}]")), "rubric.yml:4: "),
+            (task(&format!("checks: [{CHECK}, required: true, emission_on_hit: no}}]")), "rubric.yml:7: "),
+            (
+                task(
+                    "checks: [{check: mean-bias, scene: a, technique: mis, max_bounces: 3, required: true}]",
+                ),
+                "not one of `techniques`",
+            ),
             ("tasks: [".to_owned(), "rubric.yml:"),
         ] {
             let message = load(&text).expect_err(expected);

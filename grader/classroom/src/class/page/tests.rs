@@ -8,6 +8,9 @@ use verdict::submission::IntakeFinding;
 const RUBRIC: &str = "
 assignment: tiny
 title: Lights
+submission: { file: skeleton/src/algorithms/render_pt.rs, contract: path-tracer }
+techniques: [bsdf, nee, mis]
+reference_technique: mis
 tasks:
   - id: '1'
     title: A light

@@ -17,4 +17,4 @@ cargo build --release --locked -p grader
 target/release/grader doctor
 # Builds the framework and caches the results of the solution, so that no submission waits for them. Fails if the sandbox
 # is too weak: the code of students could read the solution.
-target/release/grader grade solution/src/algorithms/render_pt.rs --allow-sandbox=medium --no-report --out=/tmp/solution
+target/release/grader grade "@SOLUTION@" --allow-sandbox=medium --no-report --out=/tmp/solution

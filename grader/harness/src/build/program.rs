@@ -1,0 +1,39 @@
+//! The fixed program around a submission.
+
+use verdict::rubric::{Contract, StudentFile};
+
+/// What all programs begin with.
+const PRELUDE: &str = include_str!("../../../host/program/prelude.rs");
+
+/// The fixed program around the submissions of an assignment.
+#[derive(Clone, Debug)]
+pub struct Program {
+    /// Name of the student's file.
+    pub file_name: String,
+    /// Text of the program. The student's file is a module of it.
+    pub text: String,
+    /// A submission that compiles on every machine that can compile one.
+    pub empty_submission: &'static str,
+}
+
+/// In the programs of contracts, the name of the student's module.
+const MODULE: &str = "student_file";
+
+impl Program {
+    /// The program around a student's file.
+    pub fn around(file: &StudentFile) -> Self {
+        let (main, empty_submission) = match file.contract {
+            Contract::PathTracer => (
+                include_str!("../../../host/program/path_tracer.rs"),
+                include_str!("../../../host/program/path_tracer_empty.rs"),
+            ),
+        };
+        let module = file.module();
+        let main = main.replace(MODULE, module);
+        Self {
+            file_name: file.name().to_owned(),
+            text: format!("{PRELUDE}\n#[forbid(unsafe_code)]\nmod {module};\n{main}"),
+            empty_submission,
+        }
+    }
+}
