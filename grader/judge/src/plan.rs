@@ -6,7 +6,7 @@ use arty::integrator::Technique;
 use verdict::check::{CheckKind, Visibility, WhyNot};
 use verdict::error::{Error, Result};
 use verdict::report::SkippedCheck;
-use verdict::rubric::{CheckSpec, Rubric};
+use verdict::rubric::{CheckSpec, Rubric, Task};
 
 use crate::checks::{SceneWithReference, of_kind};
 
@@ -53,6 +53,31 @@ pub fn validate(rubric: &Rubric) -> Result<()> {
             };
             Error::Input(format!("task {}, {}: {what}", task.id, spec.id()))
         })?;
+    }
+    Ok(())
+}
+
+/// Refuses a rubric with a check whose result would mean nothing in its scene: in images of BSDF sampling that rarely finds
+/// a light, the solution would fail.
+///
+/// # Errors
+/// The first such check.
+pub(crate) fn validate_in_scenes(
+    specs: &[(&Task, &CheckSpec)],
+    scenes: &BTreeMap<String, SceneWithReference>,
+) -> Result<()> {
+    for (task, spec) in specs {
+        let why = scenes.get(&spec.scene).and_then(|scene| why_not(spec, scene).err());
+        if let Some(WhyNot::BsdfFindsLittle { share, .. }) = why {
+            return Err(Error::Input(format!(
+                "task {}, {}: BSDF sampling finds a light with only {:.1} % of the bounces there, so that no mean can be \
+                 judged; `cargo grader plan {}` lists what applies",
+                task.id,
+                spec.id(),
+                100.0 * share,
+                spec.scene
+            )));
+        }
     }
     Ok(())
 }

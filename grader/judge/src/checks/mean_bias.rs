@@ -5,7 +5,7 @@ use verdict::error::Error;
 use verdict::rubric::{CheckSpec, EmissionOnHit};
 
 use super::means::{self, Picture};
-use super::{Check, CheckOutcome, GradeContext, JobError, Observation, SceneWithReference};
+use super::{Check, CheckOutcome, GradeContext, JobError, Observation, SceneWithReference, rare_light};
 use crate::reference::Reference;
 use crate::statistics::expected::Expected;
 
@@ -21,6 +21,7 @@ impl Check for MeanBias {
     }
 
     fn applies(&self, scene: &SceneWithReference, spec: &CheckSpec) -> Result<(), WhyNot> {
+        rare_light::require(&scene.scene, spec)?;
         let nothing_lit = scene.scene.features().lit_surfaces == 0;
         if spec.emission_on_hit == EmissionOnHit::Off && nothing_lit {
             Err(WhyNot::NothingLit)

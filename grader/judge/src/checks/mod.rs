@@ -17,6 +17,7 @@ mod metamorphic;
 mod mis_weights;
 mod path_length;
 mod randomness;
+mod rare_light;
 mod ray_budget;
 mod stability;
 #[cfg(test)]

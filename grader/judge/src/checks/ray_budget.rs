@@ -4,6 +4,11 @@
 //! `intersect`, and may trace a separate ray for multiple importance sampling: at most three rays per bounce and one
 //! camera ray. Only paths that exceed this or do not end cost points. Shadow rays that cannot contribute are reported
 //! as remarks.
+//!
+//! With BSDF sampling alone, the ray that goes on is the only one at each hit point, and Russian roulette ends most long
+//! paths early: in a room with dark walls, where at least [`LONG`] bounces are asked for, the mean path has to be at most
+//! half as long. Any survival probability that follows the throughput, or that is at most 0.95 from the fifth bounce on,
+//! is far below that.
 
 use std::ops::RangeInclusive;
 
@@ -23,6 +28,9 @@ const LIGHTS: u32 = 8;
 /// Number of paths per room.
 const PATHS: u64 = 256;
 
+/// Maximum number of bounces from which on Russian roulette is expected of BSDF sampling.
+const LONG: u32 = 32;
+
 pub(super) struct RayBudget;
 
 impl Check for RayBudget {
@@ -31,11 +39,15 @@ impl Check for RayBudget {
     }
 
     fn techniques(&self) -> &'static [Technique] {
-        &[Technique::Nee, Technique::Mis]
+        &Technique::ALL
     }
 
     fn bounces(&self) -> RangeInclusive<u32> {
-        1..=3
+        1..=64
+    }
+
+    fn recommended_bounces(&self, _: u32) -> u32 {
+        3
     }
 
     fn applies(&self, scene: &SceneWithReference, _: &CheckSpec) -> Result<(), WhyNot> {
@@ -60,6 +72,19 @@ impl Check for RayBudget {
             samples += PATHS;
             Ok(process.probe(&job)?.into_iter().flatten().collect())
         };
+        if spec.technique == Technique::Bsdf {
+            let paths = probe(dark_room(), spec.max_bounces)?;
+            let excess = too_long(&paths, spec.max_bounces);
+            let counts = RayCounts {
+                excess,
+                lights: LIGHTS,
+                shadow_rays_at_mirrors: false,
+                shadow_rays_without_lights: false,
+                panic_without_lights: None,
+            };
+            let reason = if excess.is_some() { Reason::RayBudget } else { Reason::None };
+            return Ok(CheckOutcome::new(reason, Evidence::RayBudget(counts), samples));
+        }
         let mut excess = None;
         for bounces in 1..=spec.max_bounces {
             let paths = probe(room(Specular::None, LIGHTS), bounces)?;
@@ -102,6 +127,24 @@ fn too_many(paths: &[ProbedPath], bounces: u32) -> Option<TooManyRays> {
     (shadow_rays > bounces || rays > allowed).then_some(TooManyRays { bounces, shadow_rays, rays, allowed })
 }
 
+/// The mean number of rays of paths of BSDF sampling that exceed the budget; `None` if they do not.
+fn too_long(paths: &[ProbedPath], bounces: u32) -> Option<TooManyRays> {
+    let mean = |count: fn(&ProbedPath) -> u32| {
+        let sum: u64 = paths.iter().map(|path| u64::from(count(path))).sum();
+        sum.div_ceil(paths.len().max(1) as u64) as u32
+    };
+    let (shadow_rays, rays) = (mean(|path| path.shadow_rays), mean(|path| path.rays + path.shadow_rays));
+    let allowed = if bounces < LONG { 1 + bounces } else { bounces / 2 };
+    (rays > allowed).then_some(TooManyRays { bounces, shadow_rays, rays, allowed })
+}
+
+/// A closed room with walls that reflect half of the light.
+fn dark_room() -> SceneDescription {
+    let mut scene = room(Specular::None, LIGHTS);
+    scene.materials.iter_mut().for_each(|material| material.diffuse = Rgb::gray(0.5));
+    scene
+}
+
 /// A closed room with walls of one material and point lights under its ceiling.
 fn room(specular: Specular, lights: u32) -> SceneDescription {
     let mut scene = scenes::empty();
@@ -131,6 +174,16 @@ mod tests {
         }
         for (rays, shadow_rays, bounces) in [(2, 8, 1), (10, 0, 1), (5, 0, 1), (4, 24, 3), (40, 1, 1)] {
             assert!(too_many(&paths(rays, shadow_rays), bounces).is_some(), "{rays} + {shadow_rays}");
+        }
+    }
+
+    #[test]
+    fn long_paths_of_bsdf_sampling_have_to_end_early() {
+        for (rays, bounces) in [(9, 64), (32, 64), (9, 8), (16, 32)] {
+            assert_eq!(too_long(&paths(rays, 0), bounces), None, "{rays} of {bounces}");
+        }
+        for (rays, bounces) in [(65, 64), (33, 64), (10, 8), (33, 32)] {
+            assert!(too_long(&paths(rays, 0), bounces).is_some(), "{rays} of {bounces}");
         }
     }
 

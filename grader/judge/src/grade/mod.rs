@@ -105,6 +105,7 @@ impl Grader {
             },
         );
         let (scenes, framework) = (scenes?, framework?);
+        plan::validate_in_scenes(&selected, &scenes)?;
         let oracle = Oracle::of(workspace, &assignment, &framework)?;
         let framework_time = start.elapsed().as_secs_f64();
         let skipped = plan::skipped(&scenes);

@@ -6,8 +6,8 @@ use verdict::rubric::{CheckSpec, Rubric, Task};
 /// Checks with their tasks, in the order of the rubric.
 pub(super) type Selected<'a> = Vec<(&'a Task, &'a CheckSpec)>;
 
-/// The checks that `--only` selects, in the order of the rubric; all if it is empty. `5.1` selects the tasks 5.1a and
-/// 5.1b.
+/// The checks that `--only` selects, in the order of the rubric; all if it is empty. `1.2` selects the tasks 1.2a and
+/// 1.2b.
 ///
 /// # Errors
 /// If it selects none.
@@ -38,7 +38,7 @@ pub(super) fn select<'a>(rubric: &'a Rubric, only: &[String]) -> Result<Selected
     Ok(selected)
 }
 
-/// True if a task is a lettered part of a number of the sheet: 5.1a of 5.1, but 5.10 is not.
+/// True if a task is a lettered part of a number of the sheet: 1.2a of 1.2, but 1.20 is not.
 fn is_part_of(task: &str, number: &str) -> bool {
     let ends_in_digit = number.ends_with(|last: char| last.is_ascii_digit());
     let part = task.strip_prefix(number).unwrap_or_default();

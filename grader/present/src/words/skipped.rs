@@ -2,7 +2,7 @@
 
 use verdict::check::{NotRun, SkipReason, WhyNot};
 
-use super::number::{count, significant};
+use super::number::{count, percent, significant};
 
 /// Why a check was skipped.
 pub fn skipped(why: &SkipReason) -> String {
@@ -24,6 +24,13 @@ pub fn why_not(why: &WhyNot) -> String {
     let text = match why {
         WhyNot::NoLights => "there are no lights: every technique renders black",
         WhyNot::BsdfFindsNothing => "no light has an area: BSDF sampling renders black",
+        WhyNot::BsdfFindsLittle { share, needed } => {
+            return format!(
+                "only {} of the bounces hit a light, too few to judge a mean of BSDF sampling: {} are needed",
+                percent(*share, 1),
+                percent(*needed, 0)
+            );
+        }
         WhyNot::NothingToWeigh => "no light has an area: there is nothing to weight",
         WhyNot::OneTechnique => "no light has an area: there is only one technique",
         WhyNot::NothingLit => {

@@ -11,6 +11,13 @@ pub enum WhyNot {
     NoLights,
     /// No light has an area: BSDF sampling returns black.
     BsdfFindsNothing,
+    /// BSDF sampling finds a light so rarely that a mean cannot be judged.
+    BsdfFindsLittle {
+        /// Share of bounces that hit a light.
+        share: f64,
+        /// Share that the check needs.
+        needed: f64,
+    },
     /// No light has an area: there are no MIS weights to test.
     NothingToWeigh,
     /// No light has an area: only one technique finds light.

@@ -13,7 +13,9 @@ use verdict::error::Error;
 use verdict::rubric::{CheckSpec, EmissionOnHit};
 
 use super::means::{self, Picture};
-use super::{Check, CheckOutcome, GradeContext, JobError, Observation, SceneWithReference, mean_bias};
+use super::{
+    Check, CheckOutcome, GradeContext, JobError, Observation, SceneWithReference, mean_bias, rare_light,
+};
 pub(super) use pixels::Pixels;
 use pixels::RAYS;
 
@@ -37,6 +39,7 @@ impl Check for ClosedForm {
     }
 
     fn applies(&self, scene: &SceneWithReference, spec: &CheckSpec) -> Result<(), WhyNot> {
+        rare_light::require(&scene.scene, spec)?;
         pixel_means(scene, spec.max_bounces, EmissionOnHit::On, TEST_RAYS).map(drop)
     }
 

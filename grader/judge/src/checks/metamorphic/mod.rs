@@ -9,11 +9,14 @@ mod transform;
 pub(super) use transform::Transform;
 
 use arty::scene::SceneDescription;
-use verdict::check::{ChangeTest, CheckKind, Evidence, SceneChange};
+use verdict::check::{ChangeTest, CheckKind, Evidence, SceneChange, WhyNot};
 use verdict::rubric::CheckSpec;
 
 use super::means::{self, Anomalies, Picture};
-use super::{Check, CheckOutcome, GradeContext, JobError, Observation, WrongPlace, mean_bias};
+use super::{
+    Check, CheckOutcome, GradeContext, JobError, Observation, SceneWithReference, WrongPlace, mean_bias,
+    rare_light,
+};
 use crate::statistics::sequential::{Decision, Judgement};
 
 /// A changed scene (if several, their images are summed), and the factor on its brightness.
@@ -28,6 +31,10 @@ pub(super) struct Metamorphic;
 impl Check for Metamorphic {
     fn kind(&self) -> CheckKind {
         CheckKind::Metamorphic
+    }
+
+    fn applies(&self, scene: &SceneWithReference, spec: &CheckSpec) -> Result<(), WhyNot> {
+        rare_light::require(&scene.scene, spec)
     }
 
     fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<CheckOutcome, JobError> {
