@@ -1,6 +1,6 @@
 //! Runs one submission and answers the grader's requests.
 //!
-//! The submission is linked into a small fixed program (`program/main.rs`) whose `main` calls `serve`. The process
+//! The submission is linked into a small fixed program (`program/`) whose `main` calls `serve`. The process
 //! reads [`Request`](protocol::Request)s from its standard input and writes a [`Response`](protocol::Response) to
 //! each to its original standard output; output of the submission goes to standard error. Its printing macros are
 //! replaced (`printed`): a line is formatted only while a path is replayed. The process only returns numbers: the

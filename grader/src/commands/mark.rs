@@ -32,7 +32,7 @@ pub(super) struct Arguments {
     /// Source to use if a submission that was graded alone holds several: the end of its path, in archives too
     #[arg(long, value_name = "PATH", conflicts_with = "from")]
     source: Option<String>,
-    /// Task, such as 5.2a
+    /// Task, by its number on the sheet
     #[arg(required_unless_present = "from")]
     task: Option<String>,
     /// Points

@@ -9,6 +9,7 @@ mod gradescope;
 mod handout;
 mod limits;
 mod mutants;
+mod new_assignment;
 mod reference;
 mod signatures;
 
@@ -39,6 +40,7 @@ enum Command {
     LeaveOneOut(facts::LeaveOneOut),
     Limits(limits::Arguments),
     Mutants(mutants::Arguments),
+    NewAssignment(new_assignment::Arguments),
     Reference(reference::Arguments),
     Signatures(signatures::Arguments),
 }
@@ -56,6 +58,7 @@ pub fn run() -> ExitCode {
         Command::LeaveOneOut(arguments) => facts::run_leave_one_out(&arguments),
         Command::Limits(arguments) => limits::run(&arguments),
         Command::Mutants(arguments) => mutants::run(&arguments),
+        Command::NewAssignment(arguments) => new_assignment::run(&arguments),
         Command::Reference(arguments) => reference::run(&arguments),
         Command::Signatures(arguments) => signatures::run(&arguments),
     };

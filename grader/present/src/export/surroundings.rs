@@ -94,7 +94,7 @@ impl Surroundings {
     }
 }
 
-/// The first mark of each task, as in `// TASK 5.1a, 5.2b: …`.
+/// The first mark of each task, as in `// TASK 1a, 2b: …`.
 fn task_lines(source: &str, report: &Report) -> BTreeMap<String, usize> {
     let mut lines = BTreeMap::new();
     for (index, line) in source.lines().enumerate() {

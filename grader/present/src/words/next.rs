@@ -7,7 +7,7 @@ use verdict::report::{Report, TaskResult, TaskState};
 use super::number::count;
 use super::task::task_state;
 
-/// "Next: 5.1a Next event estimation, step 2 of 6: selection probability".
+/// "Next: 1a Next event estimation, step 2 of 6: selection probability".
 pub fn next_heading(next: &Next<'_>) -> String {
     let step = next
         .step
