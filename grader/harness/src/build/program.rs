@@ -37,3 +37,21 @@ impl Program {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_students_file_is_a_module_of_the_program_under_its_own_name() {
+        let path = "skeleton/src/sky.rs".to_owned();
+        let program = Program::around(&StudentFile { path, contract: Contract::PathTracer, solution: None });
+        assert_eq!(program.file_name, "sky.rs");
+        assert!(program.text.contains("#[forbid(unsafe_code)]\nmod sky;\n"), "{}", program.text);
+        assert!(
+            program.text.contains("sky::PathTracer::new") && !program.text.contains(MODULE),
+            "{}",
+            program.text
+        );
+    }
+}

@@ -15,7 +15,7 @@ use crate::output::create_folder;
 use harness::assignment::Assignment;
 use harness::build::SubmissionProgram;
 use harness::workspace::Workspace;
-use judge::reference::{self, Effort, Oracle};
+use judge::reference::{self, Effort, Oracle, Reference, Wanted};
 use verdict::error::{Error, Result};
 
 /// Width and height of pictures for viewing, in pixels.
@@ -34,6 +34,9 @@ pub(super) struct Arguments {
     /// Seed of all random numbers
     #[arg(long, default_value_t = 20_190_501)]
     seed: u64,
+    /// Render only what references lack, and keep the rest of them
+    #[arg(long, conflicts_with = "only_pictures")]
+    missing: bool,
     /// Skip the preview pictures
     #[arg(long)]
     no_pictures: bool,
@@ -65,9 +68,16 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         };
         let description = load(&workspace.scene_file(&scene))?.description;
         if !arguments.only_pictures {
-            let effort = Effort::default();
-            let made = reference::make(program, &description, &wanted, *technique, effort, arguments.seed)?;
             let path = workspace.reference_file(&scene);
+            let known =
+                if arguments.missing { reference::load(&path, &scene, &description).ok() } else { None };
+            let render = |wanted: &Wanted, effort| {
+                reference::make(program, &description, wanted, *technique, effort, arguments.seed)
+            };
+            let made = match known {
+                Some(known) => completed(known, &wanted, render)?,
+                None => render(&wanted, Effort::default())?,
+            };
             create_folder(path.parent().unwrap_or(workspace.root()))?;
             reference::save(&made, &path)?;
         }
@@ -80,6 +90,30 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         }
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// A reference with the views and moments that it lacks.
+fn completed(
+    mut known: Reference,
+    wanted: &Wanted,
+    render: impl Fn(&Wanted, Effort) -> Result<Reference>,
+) -> Result<Reference> {
+    let (of_known_views, new): (Wanted, Wanted) =
+        wanted.clone().into_iter().partition(|(view, _)| known.views.contains_key(view));
+    let lacking = of_known_views.into_iter().filter_map(|(view, mut techniques)| {
+        techniques.retain(|technique| !known.views[&view].techniques.contains_key(technique.name()));
+        (!techniques.is_empty()).then_some((view, techniques))
+    });
+    let lacking: Wanted = lacking.collect();
+    // Their mean is known.
+    let moments_only = Effort { batches: 2, samples: 1, ..Effort::default() };
+    for (view, made) in render(&lacking, moments_only)?.views {
+        known.views.entry(view).and_modify(|images| images.techniques.extend(made.techniques));
+    }
+    let made = render(&new, Effort::default())?;
+    known.views.extend(made.views);
+    known.provenance.extend(made.provenance);
+    Ok(known)
 }
 
 /// Renders a picture for viewing, of as many bounces as the reference has.
