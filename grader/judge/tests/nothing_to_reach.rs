@@ -6,7 +6,8 @@ use std::fs::File;
 use std::os::unix::fs::FileExt;
 
 use arty::integrator::{Settings, Technique};
-use harness::build::{Framework, compile};
+use harness::assignment::Assignment;
+use harness::build::compile;
 use harness::host_process::HostProcess;
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
@@ -52,8 +53,9 @@ fn holds(memory: &[u8], bytes: &[u8]) -> bool {
 #[test]
 fn the_process_of_a_submission_holds_the_scene_and_nothing_that_it_is_compared_with() {
     let workspace = Workspace::find().expect("the tests run inside the checkout");
-    let framework = Framework::build(&workspace).expect("the framework builds");
-    let source = std::fs::read_to_string(workspace.solution_file()).expect("the solution is there");
+    let assignment = Assignment::open(&workspace, "05-nee-mis").expect("it is sound");
+    let framework = assignment.framework(&workspace).expect("the framework builds");
+    let source = assignment.solution().expect("the solution is there");
     let program = compile(&framework, &source, &Limits::default()).expect("rustc runs").expect("it compiles");
 
     let name = "cornell_box_point";
