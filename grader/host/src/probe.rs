@@ -58,14 +58,17 @@ fn build(scripted: &ScriptedScene) -> Scene {
         .bsdfs
         .iter()
         .map(|bsdf| {
-            bsdf.map(|it| probe::ScriptedBsdf {
-                target: it.target,
-                f: Rgb::gray(it.f),
-                pdf: it.pdf,
-                is_delta: it.is_delta,
-                at_target: None,
-                at_viewer: None,
-                sampling: probe::ScriptedSampling::Target,
+            bsdf.map(|it| {
+                let value = |pdf| probe::ScriptedValue { f: Rgb::gray(it.f), pdf };
+                probe::ScriptedBsdf {
+                    target: it.target,
+                    f: Rgb::gray(it.f),
+                    pdf: it.pdf_elsewhere,
+                    is_delta: it.is_delta,
+                    at_target: Some(value(it.pdf)),
+                    at_viewer: Some(value(it.pdf_at_viewer)),
+                    sampling: probe::ScriptedSampling::Target,
+                }
             })
         })
         .collect();
@@ -76,7 +79,7 @@ fn build(scripted: &ScriptedScene) -> Scene {
             light.map(|it| probe::ScriptedLight {
                 point: it.point,
                 pdf_area: it.pdf_area,
-                pdf_area_on_hit: it.pdf_area,
+                pdf_area_on_hit: it.pdf_area_on_hit,
                 bright_from: None,
             })
         })

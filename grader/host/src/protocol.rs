@@ -124,15 +124,20 @@ pub struct ScriptedScene {
     pub direction: Vec3,
 }
 
-/// A BSDF with constant value and density for all directions above the horizon.
+/// A BSDF with the same value for all directions above the horizon. Its density is one of three.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ScriptedBsdf {
     /// The point in world space towards which every sampled direction points.
     pub target: Vec3,
     /// Value in every channel, 1/sr; for a delta distribution the value of its one direction.
     pub f: f32,
-    /// Density per solid angle; for a delta distribution the probability of its one direction. Positive.
+    /// Density per solid angle of the sampled direction and those near it; for a delta distribution its probability.
+    /// Positive.
     pub pdf: f32,
+    /// Density per solid angle of the direction to the viewer and those near it. No effect for a delta distribution.
+    pub pdf_at_viewer: f32,
+    /// Density per solid angle of all other directions. No effect for a delta distribution.
+    pub pdf_elsewhere: f32,
     /// True if it is a delta distribution.
     pub is_delta: bool,
 }
@@ -142,8 +147,10 @@ pub struct ScriptedBsdf {
 pub struct ScriptedLight {
     /// The point on the light, in world space.
     pub point: Vec3,
-    /// Density per area that every point of the light reports. Positive.
+    /// Density per area with which that point is sampled. Positive.
     pub pdf_area: f32,
+    /// Density per area of every point that a path hits. Positive.
+    pub pdf_area_on_hit: f32,
 }
 
 /// Argument with which the grader starts a host that does not confine itself.

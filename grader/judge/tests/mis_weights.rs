@@ -9,7 +9,9 @@ use harness::assignment::Assignment;
 use harness::sandbox::Limits;
 use harness::workspace::Workspace;
 use judge::grade::{Options, grade};
-use verdict::check::{CheckResult, Evidence, MeasuredWeights, Reason, Verdict, WeightFault, WeightForm};
+use verdict::check::{
+    CheckResult, Evidence, MeasuredWeights, OnlyWay, Reason, Verdict, WeightFault, WeightForm,
+};
 use verdict::submission::Submission;
 
 /// Result of the check on the solution with texts replaced, each of which must occur exactly once.
@@ -124,4 +126,41 @@ fn a_shadow_ray_traced_with_intersect_passes() {
         "scene.intersect(&hit.spawn(wi)).is_some_and(|other| direction_and_distance(hit.point, other.point).1 < 0.999 * distance)",
     );
     passes(&[change], RIGHT);
+}
+
+#[test]
+fn guards_against_extreme_densities_pass() {
+    passes(&[(BALANCE, "p / (p + q + 1e-5)")], RIGHT);
+    let dropped = (
+        "let weight = match",
+        "if p_ne < 1e-4 {\n            return Rgb::BLACK;\n        }\n        let weight = match",
+    );
+    passes(&[dropped], RIGHT);
+}
+
+#[test]
+fn a_density_of_another_direction_or_light_point_fails() {
+    let viewer = ("balance(p_ne, bsdf.pdf(wi))", "balance(p_ne, bsdf.pdf(hit.wo))");
+    let fresh = (
+        HIT,
+        "emission.light.sample_direct(point, &mut Sampler::new(1, (0, 0), 0)).map_or(1.0, |other| {\n\
+             balance(p_brdf, p_ne / emission.pdf_area * other.pdf_area)\n\
+         })",
+    );
+    for change in [viewer, fresh] {
+        let result = check(&[change]);
+        let Some(Evidence::MisWeights(test)) = &result.evidence else { panic!("{result:#?}") };
+        assert_eq!(test.fault, Some(WeightFault::FirstVertex), "{change:?}");
+    }
+}
+
+#[test]
+fn a_weight_that_stays_in_the_throughput_fails() {
+    let change = (
+        "radiance += throughput * emission.radiance * weight;",
+        "throughput *= weight;\n                radiance += throughput * emission.radiance;",
+    );
+    let result = check(&[change]);
+    let Some(Evidence::MisWeights(test)) = &result.evidence else { panic!("{result:#?}") };
+    assert_eq!(test.fault, Some(WeightFault::OnlyWay(OnlyWay::AfterLight)));
 }

@@ -37,6 +37,8 @@ pub(super) fn score(
         return result(None, TaskState::Partial);
     }
     let (mut earned, mut total, mut staff_only) = (0.0, 0.0, 0.0);
+    // Largest weight of a check that failed by a slight error.
+    let mut slight: f64 = 0.0;
     let mut missing = Vec::new();
     for spec in &task.checks {
         let id = spec.id();
@@ -50,12 +52,18 @@ pub(super) fn score(
         }
         total += spec.weight;
         let is_it = |check: &&CheckResult| check.id == id && check.task == task.id;
-        if results.iter().find(is_it).is_some_and(|check| check.verdict == Verdict::Pass) {
-            earned += spec.weight;
-        } else {
-            missing.push((id, spec.required));
+        match results.iter().find(is_it) {
+            Some(check) if check.verdict == Verdict::Pass => earned += spec.weight,
+            Some(check) if check.is_slightly_wrong() => {
+                earned += spec.weight;
+                slight = slight.max(spec.weight);
+                missing.push((id, false));
+            }
+            _ => missing.push((id, spec.required)),
         }
     }
+    // How many checks detect a slight error is chance, so that it costs the share of one.
+    earned -= slight;
     // Points are rounded to halves, as a tutor would give them.
     let points_of = |weight: f64| {
         let share = if total > 0.0 { weight / total } else { 0.0 };
@@ -100,17 +108,85 @@ pub(super) fn lost_to<'a>(task: &Task, results: &'a [CheckResult]) -> Option<&'a
     all.filter_map(|task| missing_required(task, results)).next()
 }
 
-/// The first required check of a task that was run and did not pass.
+/// The first required check of a task that was run and did not pass, unless it is only slightly wrong.
 fn missing_required<'a>(task: &str, results: &'a [CheckResult]) -> Option<&'a CheckId> {
-    let missing =
-        |check: &&CheckResult| check.task == task && check.required && check.verdict != Verdict::Pass;
+    let missing = |check: &&CheckResult| {
+        check.task == task && check.required && check.verdict != Verdict::Pass && !check.is_slightly_wrong()
+    };
     results.iter().find(missing).map(|check| &check.id)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use verdict::check::{Effect, Evidence, MeanTest, Reason, RegionId, RegionKind};
     use verdict::sample;
+
+    /// A check of task "one" that failed by a relative error.
+    fn biased(id: &str, required: bool, relative: f64) -> CheckResult {
+        let test = MeanTest {
+            region: RegionId { kind: RegionKind::Weighted, pixels: None },
+            effect: Some(relative),
+            interval: Some([relative - 0.002, relative + 0.002]),
+            detectable: None,
+            tolerance: 0.02,
+            whole: Some(Effect { relative, margin: 0.002 }),
+            z: Vec::new(),
+        };
+        CheckResult {
+            id: id.parse().expect("it is a name"),
+            task: "one".to_owned(),
+            required,
+            verdict: Verdict::Fail,
+            reason: Reason::Bias,
+            evidence: Some(Evidence::MeanBias(test)),
+            ..sample::report("").checks[0].clone()
+        }
+    }
+
+    #[test]
+    fn a_slight_error_costs_the_share_of_one_check_however_many_detect_it() {
+        let yaml = "
+assignment: a
+title: a
+tasks:
+  - id: one
+    title: one
+    points: 20
+    checks:
+      - { check: mean-bias, scene: a, technique: nee, max_bounces: 1, required: true }
+      - { check: mean-bias, scene: b, technique: nee, max_bounces: 1 }
+      - { check: mean-bias, scene: c, technique: nee, max_bounces: 1 }
+      - { check: mean-bias, scene: d, technique: nee, max_bounces: 1 }
+";
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let file = folder.path().join("rubric.yml");
+        std::fs::write(&file, yaml).expect("it can be written");
+        let rubric = Rubric::load(&file).expect("it is a rubric");
+        let task = &rubric.tasks[0];
+        let selected: Selected<'_> = task.checks.iter().map(|spec| (task, spec)).collect();
+        let points = |errors: [f64; 4]| {
+            let check = |(spec, error): (&CheckSpec, f64)| {
+                let id = spec.id().to_string();
+                let verdict = if error == 0.0 { Verdict::Pass } else { Verdict::Fail };
+                CheckResult { verdict, ..biased(&id, spec.required, error) }
+            };
+            let results: Vec<CheckResult> = task.checks.iter().zip(errors).map(check).collect();
+            score(task, &selected, &results, &[], None).points
+        };
+        assert_eq!(points([0.0; 4]), Some(20.0));
+        assert_eq!(points([0.0, 0.01, 0.0, 0.0]), Some(15.0));
+        assert_eq!(points([-0.01, -0.01, -0.01, -0.01]), Some(15.0));
+        assert_eq!(points([0.0, 0.01, 0.5, 0.0]), Some(10.0));
+        assert_eq!(points([0.03, 0.0, 0.0, 0.0]), Some(0.0));
+    }
+
+    #[test]
+    fn a_slight_error_of_a_required_check_does_not_cost_the_task() {
+        let is_lost =
+            |relative| missing_required("one", &[biased("mean-bias/a/nee/1", true, relative)]).is_some();
+        assert!(!is_lost(-0.01) && is_lost(-0.03) && is_lost(0.5));
+    }
 
     #[test]
     fn a_failed_required_check_costs_its_task_and_dependent_tasks_all_points() {

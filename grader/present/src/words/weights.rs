@@ -49,6 +49,7 @@ fn only_way(light: OnlyWay, measured: Option<&MeasuredWeights>) -> String {
         OnlyWay::SeenByCamera => "a light that the camera sees",
         OnlyWay::AfterDelta => "a light that is hit after a delta bounce",
         OnlyWay::PointLight => "a point light",
+        OnlyWay::AfterLight => "a light that is hit after another light and a delta bounce",
     };
     let weight = measured.and_then(|measured| measured.only_way.iter().find(|other| other.light == light));
     match weight.map(|weight| weight.weight) {

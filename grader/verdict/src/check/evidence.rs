@@ -4,7 +4,7 @@ use arty::integrator::Technique;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::means::{FurnaceTest, MeanTest};
+use super::means::{FurnaceTest, MeanTest, SLIGHT};
 use super::{CheckKind, StabilityTest, WeightTest};
 
 /// The measurements of one check: one variant per kind.
@@ -145,6 +145,13 @@ pub struct LightShares {
     pub excess: [Option<f64>; 3],
     /// The first light whose contribution is wrong, counted from 0; `None` if all are right.
     pub wrong: Option<u32>,
+}
+
+impl LightShares {
+    /// True if all errors are small.
+    pub(super) fn are_slightly_wrong(&self) -> bool {
+        self.excess.iter().all(|excess| excess.is_some_and(|excess| excess.abs() <= SLIGHT))
+    }
 }
 
 /// Lengths of paths that only `max_bounces` and Russian roulette may end.

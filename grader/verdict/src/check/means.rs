@@ -23,6 +23,20 @@ pub struct MeanTest {
     pub z: Vec<f64>,
 }
 
+/// Maximum relative error that counts as slight.
+pub(super) const SLIGHT: f64 = 0.02;
+
+impl MeanTest {
+    /// True if the error of the region that decided may be small, and that of the whole image is.
+    ///
+    /// The estimate for a region that was selected by its error is larger than the error itself, so that its interval
+    /// decides.
+    pub(super) fn is_slightly_wrong(&self) -> bool {
+        let of_region = self.interval.is_some_and(|[min, max]| min <= SLIGHT && max >= -SLIGHT);
+        of_region && self.whole.is_some_and(|whole| whole.relative.abs() <= SLIGHT)
+    }
+}
+
 /// A relative error with its uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Effect {

@@ -12,7 +12,7 @@ pub struct CheckResult {
     pub id: CheckId,
     /// Number of the task that it belongs to.
     pub task: String,
-    /// True if it must pass for any points in its task.
+    /// True if it must pass for any points in its task; slight errors are tolerated.
     pub required: bool,
     /// Who may see the check.
     pub visibility: Visibility,
@@ -113,6 +113,19 @@ impl CheckResult {
     /// True if it was run, whatever the verdict.
     pub fn was_run(&self) -> bool {
         !matches!(self.verdict, Verdict::Skipped { .. } | Verdict::NotRun { .. })
+    }
+
+    /// True if it failed by an error of at most 2 % in a mean, in the shares of lights or in the sum of the weights.
+    /// Whether such an error is detected depends on noise, so that points may not depend on how many checks detect it.
+    pub fn is_slightly_wrong(&self) -> bool {
+        let is_wrong = self.verdict == Verdict::Fail && matches!(self.reason, Reason::Bias | Reason::Weights);
+        is_wrong
+            && match &self.evidence {
+                Some(Evidence::MisWeights(test)) => test.is_slightly_wrong(),
+                Some(Evidence::LightPick(shares)) => shares.are_slightly_wrong(),
+                Some(evidence) => evidence.mean_test().is_some_and(MeanTest::is_slightly_wrong),
+                None => false,
+            }
     }
 
     /// The test of the picture whose mean decided; `None` if the check does not test means.

@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::means::SLIGHT;
+
 /// MIS weights of a submission.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WeightTest {
@@ -10,6 +12,20 @@ pub struct WeightTest {
     pub fault: Option<WeightFault>,
     /// The measured weights; `None` if a path returned NaN or infinity.
     pub measured: Option<MeasuredWeights>,
+}
+
+impl WeightTest {
+    /// True if both weights depend on the densities as they should, and all sums are close to one.
+    pub(super) fn is_slightly_wrong(&self) -> bool {
+        let Some(measured) = &self.measured else { return false };
+        let is_heuristic =
+            |form: WeightForm| matches!(form.whole_exponents(), Some([ratio, 0, 0, 0, 0]) if ratio > 0);
+        let is_near_one = |it: &OnlyWayWeight| it.weight.is_some_and(|weight| (weight - 1.0).abs() <= SLIGHT);
+        is_heuristic(measured.light)
+            && is_heuristic(measured.bsdf)
+            && measured.largest_deviation() <= SLIGHT
+            && measured.only_way.iter().all(is_near_one)
+    }
 }
 
 /// What is wrong with MIS weights.
@@ -101,11 +117,13 @@ pub enum OnlyWay {
     AfterDelta,
     /// A light without an area.
     PointLight,
+    /// A light hit after a delta bounce off another light.
+    AfterLight,
 }
 
 impl OnlyWay {
     /// All cases.
-    pub const ALL: [Self; 3] = [Self::SeenByCamera, Self::AfterDelta, Self::PointLight];
+    pub const ALL: [Self; 4] = [Self::SeenByCamera, Self::AfterDelta, Self::PointLight, Self::AfterLight];
 }
 
 /// Measured weight of light that only one technique can find.

@@ -6,7 +6,7 @@ use super::{Configuration, Reading};
 use crate::statistics::regression::{Fit, fit};
 
 /// The form of a weight that should increase with p_L / p_B.
-pub(super) fn of(seen: &[(&Configuration, Reading)], weight: impl Fn(&Reading) -> f64) -> WeightForm {
+pub(super) fn of(seen: &[(Configuration, Reading)], weight: impl Fn(&Reading) -> f64) -> WeightForm {
     let values: Vec<f64> = seen.iter().map(|(_, seen)| weight(seen)).collect();
     let noise = seen.iter().map(|(_, seen)| seen.error).fold(0.0, f64::max);
     let mean = values.iter().sum::<f64>() / values.len() as f64;

@@ -1,8 +1,8 @@
 //! Light that only one technique can find has weight 1.
 
 use arty::integrator::Settings;
-use arty::math::{Rgb, Vec3};
-use arty::scene::LightDescription;
+use arty::math::{Frame, Rgb, Vec3};
+use arty::scene::{LightDescription, Material};
 use harness::host_process::HostProcess;
 use host::protocol::{ProbeJob, ScriptedBsdf, ScriptedLight, ScriptedScene};
 use verdict::check::{OnlyWay, OnlyWayWeight};
@@ -32,10 +32,15 @@ pub(super) fn measure(
             OnlyWay::SeenByCamera => seen_by_camera(),
             OnlyWay::AfterDelta => after_delta(),
             OnlyWay::PointLight => point_light(),
+            OnlyWay::AfterLight => after_light(),
         }];
         let paths = process.probe(&ProbeJob { settings, scenes, samples, seed, stratified: false })?;
         let read = mean_and_error(&paths[0]);
-        let is_right = read.is_some_and(|(mean, error)| (mean - 1.0).abs() <= TOLERATED + NOISE * error);
+        let is_right = read.is_some_and(|(mean, error)| {
+            let path_ended = light == OnlyWay::AfterLight && mean == 0.0;
+            // That paths end at lights is a mistake, but not one of the weights.
+            path_ended || (mean - 1.0).abs() <= TOLERATED + NOISE * error
+        });
         if !is_right {
             test.wrong.get_or_insert(light);
         }
@@ -57,13 +62,13 @@ fn seen_by_camera() -> ScriptedScene {
 fn after_delta() -> ScriptedScene {
     let direction = LIGHT.normalize();
     let f = 0.25 / direction.z;
-    scene(Some(ScriptedBsdf { target: LIGHT, f, pdf: 0.25, is_delta: true }))
+    scene(Some(uniform(LIGHT, f, 0.25, true)))
 }
 
 /// A point light with f · I · cos / d² = 1, and a BSDF sample that hits nothing.
 fn point_light() -> ScriptedScene {
-    let mut scene =
-        scene(Some(ScriptedBsdf { target: Vec3::new(-1.0, 0.5, 1.0), f: 0.5, pdf: 3.0, is_delta: false }));
+    let target = Vec3::new(-1.0, 0.5, 1.0);
+    let mut scene = scene(Some(uniform(target, 0.5, 3.0, false)));
     let (direction, squared) = (LIGHT.normalize(), LIGHT.length_squared());
     let intensity = squared / (0.5 * direction.z);
     scene.scene.lights = vec![LightDescription::Point {
@@ -72,6 +77,38 @@ fn point_light() -> ScriptedScene {
     }];
     scene.lights.clear();
     scene
+}
+
+/// A blue light that reflects, between the surface and a red light: the surface's BSDF samples hit the blue one, a delta
+/// distribution there reflects towards the red one, and the surface is behind the latter. So red reaches the camera by one
+/// path only.
+fn after_light() -> ScriptedScene {
+    let (blue, red) = (Vec3::new(1.0, 0.0, 1.0), Vec3::new(-1.0, 0.0, 1.0));
+    let towards = |from: Vec3, target: Vec3, normal: Vec3, pdf: f32, is_delta: bool| {
+        let cos = normal.normalize().dot((target - from).normalize());
+        Some(uniform(target, pdf / cos, pdf, is_delta))
+    };
+    let blue_normal = Vec3::new(-1.0, 0.0, -1.0);
+    let mut scene = scene(towards(Vec3::ZERO, blue, Vec3::Z, 20.0, false));
+    let panel = facing(blue, blue_normal).map(|corner| corner.as_dvec3());
+    let glow = Material { emission: Rgb::new(0.0, 0.0, 1.0), ..scenes::grey(0.0, 0.0) };
+    scenes::add(&mut scene.scene, &[panel], glow);
+    scene.bsdfs.push(towards(blue, red, blue_normal, 0.25, true));
+    let vertices = facing(red, Vec3::new(0.6, 0.0, 0.8));
+    scene.scene.lights = vec![LightDescription::Triangle { vertices, radiance: Rgb::new(1.0, 0.0, 0.0) }];
+    scene.lights = vec![Some(ScriptedLight { point: red, pdf_area: 2.0, pdf_area_on_hit: 2.0 })];
+    scene
+}
+
+/// A BSDF with the same density for all directions.
+fn uniform(target: Vec3, f: f32, pdf: f32, is_delta: bool) -> ScriptedBsdf {
+    ScriptedBsdf { target, f, pdf, pdf_at_viewer: pdf, pdf_elsewhere: pdf, is_delta }
+}
+
+/// A triangle around a point whose front has this normal.
+fn facing(middle: Vec3, normal: Vec3) -> [Vec3; 3] {
+    let frame = Frame::around(normal.normalize());
+    [(0.2, 0.0), (-0.1, 0.15), (-0.1, -0.15)].map(|(x, y)| middle + frame.to_world(Vec3::new(x, y, 0.0)))
 }
 
 /// Center of the light.
@@ -89,7 +126,7 @@ fn scene(bsdf: Option<ScriptedBsdf>) -> ScriptedScene {
     ScriptedScene {
         scene,
         bsdfs: vec![bsdf],
-        lights: vec![Some(ScriptedLight { point: LIGHT, pdf_area: 2.0 })],
+        lights: vec![Some(ScriptedLight { point: LIGHT, pdf_area: 2.0, pdf_area_on_hit: 2.0 })],
         origin: Vec3::new(-0.2, 0.0, 1.0),
         direction: Vec3::new(0.2, 0.0, -1.0).normalize(),
     }

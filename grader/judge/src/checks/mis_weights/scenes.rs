@@ -4,6 +4,10 @@
 //! through that normal and the center of the light, so that both have the same distance and the same cosines. Light
 //! samples go to the one, BSDF samples to the other. A small black triangle occludes one of them. The geometry is
 //! real; only densities and the value of the BSDF are scripted.
+//!
+//! The point and the direction whose weight is measured have the densities of the configuration. All others, such as
+//! those of the technique that does not arrive, of the direction to the viewer, or of a light point that is sampled
+//! again, have different ones: a weight must not depend on them.
 
 use std::f32::consts::TAU;
 
@@ -20,12 +24,14 @@ use crate::scenes;
 pub(in crate::checks) struct ConfigurationRange {
     /// Number of vertices of the path before the light.
     pub(in crate::checks) vertices: usize,
-    /// Densities per solid angle lie between e^−`densities` and e^`densities`.
-    pub(in crate::checks) densities: f32,
+    /// Natural logarithms of the minimum and maximum density per solid angle.
+    pub(in crate::checks) densities: [f32; 2],
     /// Distances lie between e^−`distances` and e^`distances`.
     pub(in crate::checks) distances: f32,
     /// Minimum cosine.
     pub(in crate::checks) min_cos: f32,
+    /// True if lights differ in radiance, and only one of them is visible.
+    pub(in crate::checks) unequal: bool,
 }
 
 /// Two scenes that differ in the technique that reaches the light.
@@ -35,7 +41,7 @@ pub(in crate::checks) struct Configuration {
     pub(in crate::checks) light_side: ScriptedScene,
     /// Only the BSDF sample of the last vertex arrives.
     pub(in crate::checks) bsdf_side: ScriptedScene,
-    /// Density of the light sample per solid angle, including the selection probability.
+    /// Density of the light sample per solid angle, including a selection probability of 1 / `lights`.
     pub(in crate::checks) p_light: f64,
     /// Density of the BSDF sample per solid angle.
     pub(in crate::checks) p_bsdf: f64,
@@ -45,6 +51,8 @@ pub(in crate::checks) struct Configuration {
     pub(in crate::checks) cos_light: f64,
     /// Number of lights.
     pub(in crate::checks) lights: usize,
+    /// Number of lights that light samples reach.
+    pub(in crate::checks) visible_lights: usize,
     /// 1 / (density of the light sample per area, given the light).
     pub(in crate::checks) area: f64,
     /// Contribution of the path at weight 1 and density 1: throughput · f · L · cos.
@@ -54,6 +62,13 @@ pub(in crate::checks) struct Configuration {
 /// Distance of light points from the center of their light, relative to the distance of the light.
 const HALF: f32 = 0.05;
 
+/// Relative radiance of unequal lights.
+const RADIANCES: [f32; 3] = [1.0, 2.0, 4.0];
+
+/// The greater of the two densities is at least this: where both are small, a path contributes little, and a small
+/// constant added to denominators shows.
+const MIN_GREATER_DENSITY: f32 = 0.3;
+
 /// Maximum number of lights in a configuration: more than a path with one vertex has hit points.
 pub(super) const MAX_LIGHTS: usize = 5;
 
@@ -62,8 +77,7 @@ pub(in crate::checks) fn draw(range: ConfigurationRange, random: &mut Sampler) -
     loop {
         let configuration = attempt(range, random);
         let open = |scripted: &ScriptedScene| open_ways(scripted, range.vertices);
-        let lights = configuration.lights;
-        if open(&configuration.light_side) == Some((lights, false))
+        if open(&configuration.light_side) == Some((configuration.visible_lights, false))
             && open(&configuration.bsdf_side) == Some((0, true))
         {
             return configuration;
@@ -73,12 +87,18 @@ pub(in crate::checks) fn draw(range: ConfigurationRange, random: &mut Sampler) -
 
 fn attempt(range: ConfigurationRange, random: &mut Sampler) -> Configuration {
     let mut between = |low: f32, high: f32| low + (high - low) * random.next_1d();
-    let lights = [1, 2, MAX_LIGHTS][between(0.0, 3.0) as usize % 3];
+    let equal_lights = [1, 2, MAX_LIGHTS][between(0.0, 3.0) as usize % 3];
+    let lights = if range.unequal { RADIANCES.len() } else { equal_lights };
     let d = between(-range.distances, range.distances).exp();
     let cos_light = between(range.min_cos.ln(), 0.0).exp();
     let cos = between(range.min_cos.ln(), 0.85f32.ln()).exp();
-    let (wanted_light, pdf) =
-        (between(-range.densities, range.densities).exp(), between(-range.densities, range.densities).exp());
+    let [low, high] = range.densities;
+    let (wanted_light, pdf) = (between(low, high).exp(), between(low, high).exp());
+    let raise = (MIN_GREATER_DENSITY / wanted_light.max(pdf)).max(1.0);
+    let (wanted_light, pdf) = (wanted_light * raise, pdf * raise);
+    let mut other =
+        |density: f32| density * (between(1.0, 1.8) * if between(0.0, 1.0) < 0.5 { -1.0 } else { 1.0 }).exp();
+    let (other_of_light, other_pdf, pdf_at_viewer) = (other(1.0), other(pdf), other(pdf));
     let target_light = (between(0.0, lights as f32) as usize).min(lights - 1);
     let (turn, tilt) = (between(0.0, TAU), if between(0.0, 1.0) < 0.5 { -1.0 } else { 1.0 });
     let frame = Frame::around(unit(between(-1.0, 1.0), between(0.0, TAU)));
@@ -110,8 +130,9 @@ fn attempt(range: ConfigurationRange, random: &mut Sampler) -> Configuration {
     let (sin, cos_turn) = (1.7 * turn).sin_cos();
     let aside = Vec3::new(0.8 * cos_turn, 0.8 * sin, 0.6);
     let last = Vec3::new(-0.8 * sin, 0.8 * cos_turn, 0.6);
+    let mirrored = |step: Vec3| Vec3::new(-step.x, -step.y, step.z);
     let mut way = vec![Vec3::ZERO];
-    for step in [back, aside, last] {
+    for step in [back, aside, last, mirrored(aside), mirrored(last), aside] {
         way.push(way[way.len() - 1] + 1.5 * step);
     }
     let way: Vec<Vec3> = way.into_iter().take(range.vertices + 1).map(to_world).collect();
@@ -124,7 +145,8 @@ fn attempt(range: ConfigurationRange, random: &mut Sampler) -> Configuration {
 
     let mut builder = Builder::default();
     let mut bsdfs = Vec::new();
-    let mut contribution = 1.0;
+    let radiance = |light: usize| if range.unequal { RADIANCES[light] } else { 1.0 };
+    let mut contribution = f64::from(radiance(target_light));
     for vertex in 0..range.vertices {
         let towards = if vertex == 0 { target } else { way[vertex - 1] };
         let normal = if vertex == 0 {
@@ -140,12 +162,20 @@ fn attempt(range: ConfigurationRange, random: &mut Sampler) -> Configuration {
             // With this value, a path returns 1 with either technique under the balance heuristic.
             (pdf, (p_light + f64::from(pdf)) / cos)
         } else {
-            let pdf = between(-range.densities.min(4.0), range.densities.min(4.0)).exp();
+            let pdf = between(low.max(-4.0), high.min(4.0)).exp();
             (pdf, f64::from(pdf) / cos)
         };
         let f = value as f32;
         contribution *= f64::from(f) * cos / if vertex == 0 { 1.0 } else { f64::from(pdf) };
-        bsdfs.push(Some(ScriptedBsdf { target: towards, f, pdf, is_delta: false }));
+        let (pdf_at_viewer, pdf_elsewhere) = (3.0 * pdf, 2.0 * pdf);
+        bsdfs.push(Some(ScriptedBsdf {
+            target: towards,
+            f,
+            pdf,
+            pdf_at_viewer,
+            pdf_elsewhere,
+            is_delta: false,
+        }));
     }
     bsdfs.push(None);
     // Occlude the light samples of earlier vertices.
@@ -154,26 +184,39 @@ fn attempt(range: ConfigurationRange, random: &mut Sampler) -> Configuration {
     }
     let mut bsdf_side = builder.clone();
     builder.block(way[0], target, 0.01 * d);
+    if range.unequal {
+        let others = sampled.iter().enumerate().filter(|(light, _)| *light != target_light);
+        others.for_each(|(_, &point)| builder.block(way[0], point, 0.01 * d));
+    }
     sampled.iter().for_each(|&point| bsdf_side.block(way[0], point, 0.01 * d));
 
-    let triangles: Vec<[Vec3; 3]> = (0..lights).map(corners).collect();
-    let scripts: Vec<_> = sampled.iter().map(|&point| Some(ScriptedLight { point, pdf_area })).collect();
+    let triangles: Vec<([Vec3; 3], f32)> =
+        (0..lights).map(|light| (corners(light), radiance(light))).collect();
     let (origin, aim) = (way[range.vertices], way[range.vertices - 1]);
-    let scripted = |builder: Builder| ScriptedScene {
-        scene: builder.finish(range.vertices, &triangles),
-        bsdfs: bsdfs.clone(),
-        lights: scripts.clone(),
-        origin,
-        direction: direction_and_distance(origin, aim).0,
-    };
+    // Densities of the sampled light points and of those that are hit, of the sampled direction and of others.
+    let scripted =
+        |builder: Builder, [pdf_area, pdf_area_on_hit]: [f32; 2], [pdf, pdf_elsewhere]: [f32; 2]| {
+            let script = |&point: &Vec3| Some(ScriptedLight { point, pdf_area, pdf_area_on_hit });
+            let mut bsdfs = bsdfs.clone();
+            bsdfs[0] = bsdfs[0].map(|bsdf| ScriptedBsdf { pdf, pdf_at_viewer, pdf_elsewhere, ..bsdf });
+            ScriptedScene {
+                scene: builder.finish(range.vertices, &triangles),
+                bsdfs,
+                lights: sampled.iter().map(script).collect(),
+                origin,
+                direction: direction_and_distance(origin, aim).0,
+            }
+        };
+    let other_area = pdf_area * other_of_light;
     Configuration {
-        light_side: scripted(builder),
-        bsdf_side: scripted(bsdf_side),
+        light_side: scripted(builder, [pdf_area, other_area], [other_pdf, pdf]),
+        bsdf_side: scripted(bsdf_side, [other_area, pdf_area], [pdf, other_pdf]),
         p_light,
         p_bsdf: f64::from(pdf),
         distance,
         cos_light,
         lights,
+        visible_lights: if range.unequal { 1 } else { lights },
         area: 1.0 / f64::from(pdf_area),
         contribution,
     }
@@ -238,7 +281,7 @@ impl Builder {
         self.add_around(0.5 * (from + to), direction_and_distance(from, to).0, radius);
     }
 
-    fn finish(self, vertices: usize, lights: &[[Vec3; 3]]) -> SceneDescription {
+    fn finish(self, vertices: usize, lights: &[([Vec3; 3], f32)]) -> SceneDescription {
         let mut scene = scenes::empty();
         let corners: Vec<_> =
             self.triangles.iter().map(|triangle| triangle.map(|corner| corner.as_dvec3())).collect();
@@ -249,7 +292,10 @@ impl Builder {
         scenes::add(&mut scene, black, scenes::grey(0.0, 0.0));
         scene.lights = lights
             .iter()
-            .map(|&vertices| LightDescription::Triangle { vertices, radiance: Rgb::WHITE })
+            .map(|&(vertices, radiance)| LightDescription::Triangle {
+                vertices,
+                radiance: Rgb::gray(radiance),
+            })
             .collect();
         scene
     }
@@ -262,9 +308,10 @@ mod tests {
     #[test]
     fn configurations_of_every_length_are_drawn_and_mirrored_points_have_equal_distances() {
         let mut random = Sampler::new(1, (0, 0), 0);
-        for vertices in [1, 2, 3] {
+        for (vertices, unequal) in [(1, false), (1, true), (2, false), (3, false), (6, false)] {
             for _ in 0..20 {
-                let range = ConfigurationRange { vertices, densities: 27.6, distances: 3.9, min_cos: 0.05 };
+                let (densities, distances, min_cos) = ([-27.6, 27.6], 3.9, 0.05);
+                let range = ConfigurationRange { vertices, densities, distances, min_cos, unequal };
                 let configuration = draw(range, &mut random);
                 let scripted = &configuration.bsdf_side;
                 let hit_point = scripted.bsdfs[0].expect("it is scripted").target;

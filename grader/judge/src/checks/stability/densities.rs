@@ -49,12 +49,19 @@ enum PairResult {
 
 pub(super) fn find(stability: &StabilityContext<'_>, process: &mut HostProcess) -> PartResult {
     let mut random = Sampler::new(stability.seed, (0, 0), 0);
-    let range = ConfigurationRange { vertices: 1, densities: 1.0, distances: 0.1, min_cos: 0.5 };
+    let (densities, distances, min_cos) = ([-1.0, 1.0], 0.1, 0.5);
+    let range = ConfigurationRange { vertices: 1, densities, distances, min_cos, unequal: false };
     let configuration = draw(range, &mut random);
     let settings = Settings { max_bounces: 3, ..stability.settings };
     let mut pairs = Vec::new();
     for light in DENSITIES {
         for bsdf in DENSITIES {
+            // Rounding must not decide which of two equal densities is greater.
+            let bsdf = match bsdf == light {
+                true if bsdf < 1.0 => 1.5 * bsdf,
+                true => bsdf / 1.5,
+                false => bsdf,
+            };
             // The throughput f · cos / p_B must be representable in single precision.
             if bsdf > 0.0 && within_f32(light) / bsdf > MAX_THROUGHPUT {
                 continue;
@@ -88,10 +95,11 @@ fn scripted(configuration: &Configuration, light: f64, bsdf: f64) -> [ScriptedSc
     [&configuration.light_side, &configuration.bsdf_side].map(|side| {
         let mut side = side.clone();
         for script in side.lights.iter_mut().flatten() {
-            script.pdf_area = pdf_area;
+            (script.pdf_area, script.pdf_area_on_hit) = (pdf_area, pdf_area);
         }
         for script in side.bsdfs.iter_mut().flatten() {
-            script.pdf = bsdf as f32;
+            (script.pdf, script.pdf_at_viewer, script.pdf_elsewhere) =
+                (bsdf as f32, bsdf as f32, bsdf as f32);
             script.f = value as f32;
         }
         side
