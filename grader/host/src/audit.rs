@@ -42,7 +42,7 @@ fn run(key: &Key, constructor: Constructor, run: &AuditRun, scene: &Scene, ray: 
             &mut Sampler::new(u64::from(run.seed), (0, 0), u64::from(path)),
         ));
         let counts: Counts = take_counts(key);
-        rays = include(rays, counts.rays);
+        rays = include(rays, counts.rays + counts.shadow_rays);
         light_samples = include(light_samples, counts.light_samples);
     }
     let channels = || values.iter().map(|value| value.to_array().map(f64::from));

@@ -160,6 +160,16 @@ pub enum Factor {
     Repeatable,
     /// Light reflected by the surface of a light.
     ReflectedByLight,
+    /// Light on a path whose first light sample found nothing, since the light faces away.
+    AfterMissedLightSample,
+    /// Light on a path with many bounces, none of which ends it.
+    LongPath,
+    /// Rays of a path, relative to those with a single light.
+    Rays,
+    /// The result for very small and very large densities.
+    ExtremeDensities,
+    /// How much more often a path equals the next one than a distant one; 1 if all are equal.
+    RandomNumbers,
 }
 
 /// The unit of a fact's value.

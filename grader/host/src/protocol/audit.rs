@@ -94,7 +94,7 @@ pub struct AuditedRun {
     pub mean: [f64; 3],
     /// Standard deviation of their radiance.
     pub spread: [f64; 3],
-    /// Minimum and maximum number of calls of `Scene::intersect` in a path.
+    /// Minimum and maximum number of calls of `Scene::intersect` and `Scene::occluded` in a path.
     pub rays: [u32; 2],
     /// Minimum and maximum number of calls of `Light::sample_direct` in a path.
     pub light_samples: [u32; 2],

@@ -30,6 +30,8 @@ pub(super) struct Chain {
     pub(super) distance: f32,
     /// Cosine at the light, of the point that is hit.
     pub(super) cos_light: f32,
+    /// Side to which the light is turned: 1, or −1, where it faces away from the first of three surfaces.
+    pub(super) turn: f32,
     /// Distance of the sampled light point from the one that is hit, relative to the distance of the light.
     pub(super) apart: f32,
     /// Density per area of the sampled light point.
@@ -126,6 +128,7 @@ impl Chain {
             emitted: Rgb::WHITE,
             distance: 1.0,
             cos_light: 0.8,
+            turn: 1.0,
             apart: 0.0,
             pdf_area: 0.3,
             pdf_area_on_hit: 0.3,
@@ -176,7 +179,8 @@ impl Chain {
         let towards = (self.point(count + 1) - self.point(count)).normalize();
         let along = towards.cross(DVec3::new(0.3, 0.2, 0.9)).normalize();
         let cos = f64::from(self.cos_light);
-        let normal = -towards * cos + towards.cross(along) * (1.0 - cos * cos).max(0.0).sqrt();
+        let aside = towards.cross(along) * f64::from(self.turn);
+        let normal = -towards * cos + aside * (1.0 - cos * cos).max(0.0).sqrt();
         (normal, along)
     }
 

@@ -85,3 +85,9 @@ impl About {
 pub(super) fn holds_if(holds: bool) -> Outcome {
     if holds { Outcome::Holds } else { Outcome::Fails }
 }
+
+/// How far the ratio of a fact is off; failed ones more than others.
+pub(super) fn deviation(fact: &Fact) -> f64 {
+    let off = fact.measured.map_or(f64::INFINITY, |measured| (measured - 1.0).abs());
+    if fact.fails() { off + 1e6 } else { off }
+}

@@ -156,4 +156,13 @@ impl Prober<'_> {
     pub(super) fn measure_all(&mut self, cases: &[Case]) -> Result<Vec<Measured>, JobError> {
         Ok(self.measure(cases, Effort::USUAL)?.into_iter().flatten().collect())
     }
+
+    /// The maximum number of rays of a path, by case.
+    pub(super) fn rays(&mut self, cases: &[Case]) -> Result<Vec<u32>, JobError> {
+        let scenes = cases.iter().map(|case| case.chain.scene()).collect();
+        let runs =
+            cases.iter().zip(0..).map(|(case, scene)| case.run(scene, Effort::USUAL.set, self.seed, false));
+        let job = AuditJob { runs: runs.collect(), scenes };
+        Ok(self.process.audit(&job, self.time)?.into_iter().map(|run| run.rays[1]).collect())
+    }
 }

@@ -12,7 +12,7 @@ use verdict::audit::{Fact, Factor, Outcome, PathEnd, Place, SurfaceKind, Term, W
 use super::chain::Chain;
 use super::contributions::log_change;
 use super::facts::{About, NOISE, RATIO, holds_if};
-use super::measure::{Case, Measured, Prober};
+use super::measure::{Case, Effort, Measured, Prober};
 
 /// One change of a chain: the factor, and its exponent in the odds of the light sample's and of the hit's weight; `None`
 /// if it is not looked at there.
@@ -26,6 +26,12 @@ struct Weights {
     errors: [f64; 2],
 }
 
+/// Densities of hits, and the densities of light samples relative to them, for which the weights must sum to one.
+const SUMS: [(f32, f32); 5] = [(2.0, 0.25), (2.0, 1.7), (2.0, 6.0), (0.05, 1.7), (60.0, 1.7)];
+
+/// Enough paths that roulette rarely ends all of them before a late hit.
+const LATE: Effort = Effort { first: 4096, set: 512, most: usize::MAX };
+
 /// Facts about the weights at a hit point.
 pub(super) fn facts(prober: &mut Prober<'_>, hit: u32) -> Result<Vec<Fact>, JobError> {
     let base = chain(hit, 0.25);
@@ -38,8 +44,7 @@ pub(super) fn facts(prober: &mut Prober<'_>, hit: u32) -> Result<Vec<Fact>, JobE
     }));
     let rise = [0.125f32, 8.0].map(|factor| scaled(&base, factor));
     chains.extend(rise);
-    let sums = [0.25, 1.7, 6.0].map(|ratio| with_ratio(chain(hit, 0.0), ratio));
-    chains.extend(sums);
+    chains.extend(of_sums(hit));
     // More lights, of which the others are brighter or dimmer.
     let unequal: [&[f32]; 3] = [&[3.0], &[0.2], &[1.0, 2.0, 0.5]];
     chains.extend(unequal.map(|others| {
@@ -47,11 +52,12 @@ pub(super) fn facts(prober: &mut Prober<'_>, hit: u32) -> Result<Vec<Fact>, JobE
         chain.dark_lights = others.to_vec();
         chain
     }));
-    let weights = measure(prober, &chains)?;
+    let weights = measure(prober, &chains, Effort::USUAL)?;
 
     let (first, rest) = weights.split_at(changes.len() + 1);
-    let sum = worst_sum(hit, Factor::Sum, &rest[2..5]);
-    let unequal = worst_sum(hit, Factor::SumWithUnequalLights, &rest[5..]);
+    let (sums, unequal) = rest[2..].split_at(SUMS.len());
+    let sum = worst_sum(hit, Factor::Sum, sums);
+    let unequal = worst_sum(hit, Factor::SumWithUnequalLights, unequal);
     let sums_hold = !unequal.fails();
     let mut facts = Vec::new();
     for (side, term) in [Term::LightWeight, Term::HitWeight].into_iter().enumerate() {
@@ -61,6 +67,22 @@ pub(super) fn facts(prober: &mut Prober<'_>, hit: u32) -> Result<Vec<Fact>, JobE
     }
     facts.extend([sum, unequal]);
     Ok(facts)
+}
+
+/// The sum of the weights at a hit point late on a path. No fact if roulette ends all paths before.
+pub(super) fn sum(prober: &mut Prober<'_>, hit: u32) -> Result<Vec<Fact>, JobError> {
+    let weights = measure(prober, &of_sums(hit), LATE)?;
+    let arrives = weights.iter().all(|it| it.light != 0.0 || it.hit != 0.0);
+    Ok(if arrives { vec![worst_sum(hit, Factor::Sum, &weights)] } else { Vec::new() })
+}
+
+/// Chains whose light sample and hit find the same point, so that their weights sum to one.
+fn of_sums(hit: u32) -> [Chain; SUMS.len()] {
+    SUMS.map(|(pdf, ratio)| {
+        let mut chain = chain(hit, 0.0);
+        chain.last().pdf = pdf;
+        with_ratio(chain, ratio)
+    })
 }
 
 fn chain(hit: u32, apart: f32) -> Chain {
@@ -78,7 +100,7 @@ fn chain(hit: u32, apart: f32) -> Chain {
 
 /// The chain with the density of the light sample this many times that of the hit.
 fn with_ratio(mut chain: Chain, ratio: f32) -> Chain {
-    let p_light = 2.0 * ratio;
+    let p_light = chain.last().pdf * ratio;
     (chain.pdf_area, chain.pdf_area_on_hit) = (1.0, 1.0);
     chain.pdf_area = p_light / chain.p_light() as f32;
     chain.pdf_area_on_hit = p_light / chain.p_light_on_hit() as f32;
@@ -121,11 +143,14 @@ fn changes(hit: u32) -> Vec<Change> {
     changes
 }
 
-fn measure(prober: &mut Prober<'_>, chains: &[Chain]) -> Result<Vec<Weights>, JobError> {
+fn measure(prober: &mut Prober<'_>, chains: &[Chain], effort: Effort) -> Result<Vec<Weights>, JobError> {
     let case = |chain: &Chain| Case::new(chain.clone(), Technique::Mis);
     let dark: Vec<Case> = chains.iter().map(|chain| case(chain).light_samples_only()).collect();
-    let dark = prober.measure_all(&dark)?;
-    let both = prober.measure_all(&chains.iter().map(case).collect::<Vec<_>>())?;
+    let mut all = |cases: &[Case]| -> Result<Vec<Measured>, JobError> {
+        Ok(prober.measure(cases, effort)?.into_iter().flatten().collect())
+    };
+    let dark = all(&dark)?;
+    let both = all(&chains.iter().map(case).collect::<Vec<_>>())?;
     let weights = chains.iter().zip(both.into_iter().zip(dark)).map(|(chain, (both, dark))| {
         let hit: Measured = both.minus(dark);
         let (sampled, found) = (chain.light_sample(), chain.hit_light());

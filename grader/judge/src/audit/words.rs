@@ -11,6 +11,15 @@ use super::measure::{Case, Effort, Measured, Prober};
 /// Maximum number of surfaces.
 const SURFACES: u32 = 4;
 
+/// Number of mirrors of the long path, more than a limit of a submission's own is likely to allow.
+const MIRRORS: u32 = 12;
+
+/// Enough paths that roulette rarely ends all of them.
+const LONG: Effort = Effort { first: 4096, set: 512, most: usize::MAX };
+
+/// Number of paths that must survive roulette for a fact about the long path.
+const SURVIVORS: f64 = 40.0;
+
 /// Number of bounces of the longest paths that are allowed.
 const MAX_BOUNCES: u32 = 6;
 
@@ -77,6 +86,31 @@ pub(super) fn facts(prober: &mut Prober<'_>, technique: Technique) -> Result<Vec
         }
     }
     Ok(facts)
+}
+
+/// A path over many mirrors, which only `max_bounces` and roulette may end. No fact if roulette ends nearly all paths
+/// before, or if a path half as long is wrong, too.
+pub(super) fn long_path(prober: &mut Prober<'_>, technique: Technique) -> Result<Vec<Fact>, JobError> {
+    let case = |mirrors: u32| {
+        let surfaces = vec![SurfaceKind::Mirror; mirrors as usize];
+        let chain = Chain::new(&surfaces, PathEnd::AreaLight);
+        (Case { max_bounces: mirrors, ..Case::new(chain, technique) }, surfaces)
+    };
+    let ((half, _), (whole, surfaces)) = (case(MIRRORS / 2), case(MIRRORS));
+    let exact = [half.chain.hit_light(), whole.chain.hit_light()];
+    let seen: Vec<Measured> = prober.measure(&[half, whole], LONG)?.into_iter().flatten().collect();
+    let [half, whole] =
+        [0, 1].map(|index| (seen[index].value / exact[index], seen[index].error / exact[index]));
+    // The relative variance of a result that roulette ends with probability 1 − q is 1 / q − 1.
+    let survival = 1.0 / (1.0 + f64::from(LONG.first) * (half.1 / half.0).powi(2));
+    let is_right = (half.0 - 1.0).abs() <= RATIO + NOISE * half.1;
+    // NaN compares as false.
+    let is_telling = is_right && f64::from(LONG.first) * survival * survival >= SURVIVORS;
+    let about = About { term: Term::Path, technique, place: Place::Paths };
+    let mut fact = about.ratio(Factor::LongPath, whole.0, NOISE * whole.1);
+    let example = PathWord { surfaces, end: PathEnd::AreaLight, max_bounces: MIRRORS };
+    fact.example = fact.fails().then_some(example);
+    Ok(if is_telling { vec![fact] } else { Vec::new() })
 }
 
 /// Paths that end nowhere are judged with those that end at an area light.

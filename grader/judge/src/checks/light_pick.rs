@@ -63,7 +63,7 @@ impl Check for LightPick {
     fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<CheckOutcome, JobError> {
         let mut process = context.start()?;
         let settings = settings_of(spec);
-        let scene = scene();
+        let scene = three_lights();
         let mut means = Vec::new();
         for set in 0..SETS {
             let seed = batch_seed(context.seed_of(spec), set);
@@ -146,7 +146,8 @@ fn expected(channel: usize) -> f64 {
     f64::from(ALBEDO) / PI * f64::from(POWER) / (4.0 * PI) * cos / to_light.length_squared()
 }
 
-fn scene() -> ScriptedScene {
+/// A floor under a red, a green and a blue point light of equal power.
+pub(crate) fn three_lights() -> ScriptedScene {
     let eye = Vec3::new(0.5, 2.0, 0.7);
     let mut scene = scenes::empty();
     scene.camera = scenes::camera(eye.as_dvec3(), SEEN.as_dvec3(), 40.0);

@@ -9,6 +9,7 @@ mod check;
 mod closed_form;
 mod context;
 mod efficiency;
+mod facts;
 mod hidden_variants;
 mod light_pick;
 mod mean_bias;
@@ -28,6 +29,7 @@ mod white_furnace;
 pub use check::{Check, CheckOutcome, Observation, Quantity, WrongPlace};
 pub use context::{GradeContext, SceneWithReference, out_of_time, skipped};
 pub use harness::job::JobError;
+pub(crate) use light_pick::three_lights;
 pub use mean_bias::expected as expected_by_reference;
 
 use verdict::check::CheckKind;
@@ -36,6 +38,7 @@ use verdict::check::CheckKind;
 static REGISTRY: [&dyn Check; CheckKind::ALL.len()] = [
     &closed_form::ClosedForm,
     &efficiency::Efficiency,
+    &facts::Facts,
     &hidden_variants::HiddenVariants,
     &light_pick::LightPick,
     &mean_bias::MeanBias,

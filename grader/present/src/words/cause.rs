@@ -176,6 +176,7 @@ fn what_is_right(check: &CheckResult) -> String {
     let (scene, technique) = (&check.id.scene, check.id.technique);
     let quantity = match check.id.kind {
         CheckKind::MisWeights => return format!("the MIS weights are correct (`{technique}`)"),
+        CheckKind::Facts => return format!("every factor is correct (`{technique}`)"),
         CheckKind::LightPick => {
             return format!("each of the three lights contributes what it should (`{technique}`)");
         }

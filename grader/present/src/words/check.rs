@@ -3,11 +3,12 @@
 use arty::integrator::Technique;
 
 use verdict::check::{
-    CheckKind, CheckResult, Evidence, LightShares, Noise, PathLengths, PixelGroup, RandomNumbers, RayCounts,
-    Reason, TooManyRays, Verdict,
+    CheckKind, CheckResult, Evidence, FailedFacts, LightShares, Noise, PathLengths, PixelGroup,
+    RandomNumbers, RayCounts, Reason, TooManyRays, Verdict,
 };
 
 use super::command::{replay_command, replay_of_finding};
+use super::fact::fact;
 use super::number::{count, list, percent, trimmed};
 use super::{fault, means, numerics, skipped, stability, weights};
 
@@ -72,6 +73,7 @@ fn of_evidence(evidence: &Evidence, check: &CheckResult) -> String {
         Evidence::Metamorphic(test) => means::change(test, verdict),
         Evidence::WhiteFurnace(test) => means::furnace(test, verdict),
         Evidence::Efficiency(noise) => efficiency(noise, check.id.technique, verdict),
+        Evidence::Facts(facts) => failed_facts(facts),
         Evidence::LightPick(shares) => light_pick(shares, check.id.technique),
         Evidence::MisWeights(test) => weights::weights(test),
         Evidence::Randomness(numbers) => randomness(*numbers),
@@ -79,6 +81,17 @@ fn of_evidence(evidence: &Evidence, check: &CheckResult) -> String {
         Evidence::RayBudget(rays) => ray_budget(rays),
         Evidence::Stability(test) => stability::stability(test, verdict),
     }
+}
+
+fn failed_facts(facts: &FailedFacts) -> String {
+    let Some(first) = facts.failed.first() else {
+        return format!("all {} facts about the estimator hold", facts.measured);
+    };
+    let others = match facts.failed.len() - 1 {
+        0 => String::new(),
+        others => format!("; {} more", count(others, "fact")),
+    };
+    format!("{}{others}", fact(first))
 }
 
 fn efficiency(noise: &Noise, technique: Technique, verdict: &Verdict) -> String {
@@ -284,6 +297,7 @@ pub fn about(kind: CheckKind) -> &'static str {
         CheckKind::Efficiency => {
             "compares the variance with the solution's: the mean alone does not show whether a technique is used"
         }
+        CheckKind::Facts => "measures how the estimator depends on each factor, in scripted scenes",
         CheckKind::HiddenVariants => {
             "compares means with the solution's in scenes generated at random from the seed"
         }

@@ -45,6 +45,21 @@ pub fn fact(fact: &Fact) -> String {
                 fact.technique
             )
         }
+        (_, Factor::Rays) => format!(
+            "with {}, a path traces {seen} times as many rays as with one (`{}`): the sheet asks for a single shadow ray at \
+             each hit point",
+            lights(fact.place),
+            fact.technique
+        ),
+        (_, Factor::ExtremeDensities) => format!(
+            "where densities are 1e-6 or 1e6, the result is {seen} times what it should be (`{}`); look for limits and \
+             constants that are added to densities",
+            fact.technique
+        ),
+        (_, Factor::RandomNumbers) => format!(
+            "paths share their random numbers (`{}`): every number must come from the sampler that `radiance` is given",
+            fact.technique
+        ),
         (_, Factor::Scale) => format!(
             "very dim, bright, near or far light is not proportional: {term} is {seen} times what it should be{about}; \
              look for limits and constants"
@@ -70,7 +85,7 @@ pub fn fact(fact: &Fact) -> String {
 pub fn factor(fact: &Fact) -> String {
     let name = name(fact.term, fact.factor);
     match fact.place {
-        Place::Lights(number) => count(number as usize, "light"),
+        Place::Lights(number) if fact.term == Term::Selection => count(number as usize, "light"),
         _ => name.to_owned(),
     }
 }
@@ -87,7 +102,7 @@ pub fn heading(term: Term) -> &'static str {
         Term::Path => "Paths",
         Term::Roulette => "Russian roulette",
         Term::Selection => "Selection of a light",
-        Term::Conduct => "Constants and repetition",
+        Term::Conduct => "Constants, rays and random numbers",
     }
 }
 
@@ -215,6 +230,11 @@ fn name(term: Term, factor: Factor) -> &'static str {
         Factor::HighThroughput => "throughput above 1",
         Factor::Repeatable => "the same call twice",
         Factor::ReflectedByLight => "at a point on another light",
+        Factor::AfterMissedLightSample => "after a light that faces away",
+        Factor::LongPath => "twelve bounces",
+        Factor::Rays => "rays, with many lights",
+        Factor::ExtremeDensities => "very small and large densities",
+        Factor::RandomNumbers => "excess of equal paths in a row",
     }
 }
 
@@ -250,6 +270,10 @@ fn path(fact: &Fact) -> String {
         Factor::AfterBounces => "light after bounces without a delta bounce",
         Factor::AtLimit => "light after exactly `max_bounces` bounces",
         Factor::BeyondLimit => "light after more than `max_bounces` bounces",
+        Factor::AfterMissedLightSample => {
+            "light on a path whose first hit point sees no sampled light, since that faces away,"
+        }
+        Factor::LongPath => "light after twelve bounces, where `max_bounces` allows them,",
         _ => "a path that never meets a light",
     };
     let example =

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::means::{FurnaceTest, MeanTest, SLIGHT};
 use super::{CheckKind, StabilityTest, WeightTest};
+use crate::audit::{Fact, Unit};
 
 /// The measurements of one check: one variant per kind.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -14,6 +15,7 @@ use super::{CheckKind, StabilityTest, WeightTest};
 pub enum Evidence {
     ClosedForm(MeanTest),
     Efficiency(Noise),
+    Facts(FailedFacts),
     HiddenVariants(VariantTest),
     LightPick(LightShares),
     MeanBias(MeanTest),
@@ -33,6 +35,7 @@ impl Evidence {
         match self {
             Self::ClosedForm(_) => CheckKind::ClosedForm,
             Self::Efficiency(_) => CheckKind::Efficiency,
+            Self::Facts(_) => CheckKind::Facts,
             Self::HiddenVariants(_) => CheckKind::HiddenVariants,
             Self::LightPick(_) => CheckKind::LightPick,
             Self::MeanBias(_) => CheckKind::MeanBias,
@@ -55,6 +58,7 @@ impl Evidence {
             | Self::Metamorphic(ChangeTest { test, .. })
             | Self::WhiteFurnace(FurnaceTest { test, .. }) => Some(test),
             Self::Efficiency(_)
+            | Self::Facts(_)
             | Self::LightPick(_)
             | Self::MisWeights(_)
             | Self::PathLength(_)
@@ -151,6 +155,26 @@ impl LightShares {
     /// True if all errors are small.
     pub(super) fn are_slightly_wrong(&self) -> bool {
         self.excess.iter().all(|excess| excess.is_some_and(|excess| excess.abs() <= SLIGHT))
+    }
+}
+
+/// Facts about an estimator that fail.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FailedFacts {
+    /// The facts that fail, in the order in which they should be read.
+    pub failed: Vec<Fact>,
+    /// Number of all facts that were measured.
+    pub measured: u32,
+}
+
+impl FailedFacts {
+    /// True if all that fails is a ratio that should be 1 and is close to it.
+    pub(super) fn are_slight(&self) -> bool {
+        let is_slight = |fact: &Fact| {
+            let is_ratio = fact.factor.unit() == Unit::Ratio && fact.expected == 1.0;
+            is_ratio && fact.measured.is_some_and(|measured| (measured - 1.0).abs() <= SLIGHT)
+        };
+        self.failed.iter().all(is_slight)
     }
 }
 

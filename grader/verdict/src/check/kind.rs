@@ -12,6 +12,8 @@ pub enum CheckKind {
     ClosedForm,
     /// Variance against that of the other techniques.
     Efficiency,
+    /// Dependence of the estimator on each factor, in scripted scenes.
+    Facts,
     /// Means in randomly generated scenes, against the solution.
     HiddenVariants,
     /// Frequency of light selection against the selection probability in the estimator.
@@ -41,6 +43,7 @@ impl CheckKind {
     pub const ALL: [Self; 13] = [
         Self::ClosedForm,
         Self::Efficiency,
+        Self::Facts,
         Self::HiddenVariants,
         Self::LightPick,
         Self::MeanBias,
@@ -59,6 +62,7 @@ impl CheckKind {
         match self {
             Self::ClosedForm => "closed-form",
             Self::Efficiency => "efficiency",
+            Self::Facts => "facts",
             Self::HiddenVariants => "hidden-variants",
             Self::LightPick => "light-pick",
             Self::MeanBias => "mean-bias",
@@ -89,7 +93,8 @@ impl CheckKind {
     pub fn needs_scene(self) -> bool {
         !matches!(
             self,
-            Self::HiddenVariants
+            Self::Facts
+                | Self::HiddenVariants
                 | Self::LightPick
                 | Self::MisWeights
                 | Self::PathLength

@@ -11,8 +11,8 @@ mod weights;
 mod why_not;
 
 pub use evidence::{
-    ChangeTest, Evidence, LightShares, Noise, PathLengths, PixelGroup, RandomNumbers, RayCounts, SceneChange,
-    TooManyRays, VarianceOf, VariantTest,
+    ChangeTest, Evidence, FailedFacts, LightShares, Noise, PathLengths, PixelGroup, RandomNumbers, RayCounts,
+    SceneChange, TooManyRays, VarianceOf, VariantTest,
 };
 pub use fault::{Anomaly, Fault, Numerics};
 pub use id::{CheckId, Visibility};

@@ -122,6 +122,7 @@ impl CheckResult {
         is_wrong
             && match &self.evidence {
                 Some(Evidence::MisWeights(test)) => test.is_slightly_wrong(),
+                Some(Evidence::Facts(facts)) => facts.are_slight(),
                 Some(Evidence::LightPick(shares)) => shares.are_slightly_wrong(),
                 Some(evidence) => evidence.mean_test().is_some_and(MeanTest::is_slightly_wrong),
                 None => false,
