@@ -63,6 +63,15 @@ fn every_wrong_variant_shows_one_cause_and_no_right_one_does() {
 }
 
 #[test]
+fn every_wrong_variant_has_a_signature() {
+    let learnt = Signatures::load(&assignment().signatures_file()).expect("it is there");
+    let wrong = all().into_iter().filter(|variant| variant.kind == Kind::Wrong);
+    let missing: Vec<String> =
+        wrong.filter(|variant| learnt.get(&variant.id).is_none()).map(|variant| variant.id).collect();
+    assert!(missing.is_empty(), "run `cargo lab signatures`: {missing:?}");
+}
+
+#[test]
 fn signatures_are_never_tested_on_themselves() {
     let learnt = Signatures::load(&assignment().signatures_file()).expect("it is there");
     let learnt: BTreeSet<(&str, u64)> = learnt.all().map(|(variant, seed, _)| (variant, seed)).collect();

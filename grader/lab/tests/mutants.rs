@@ -101,6 +101,7 @@ fn every_kind_of_check_fails_on_a_mistake_and_passes_correct_programs() {
         ("efficiency/cornell_box/nee/1", "nee-for-point-lights-only"),
         ("efficiency/cornell_box/mis/1", "mis-is-bsdf-sampling"),
         ("efficiency/glossy_plane/mis/1", "mis-is-nee"),
+        ("facts/scripted/nee/3", "light-asked-only-if-the-path-goes-on"),
         ("hidden-variants/scripted/mis/6", "pick-probability-missing"),
         ("light-pick/scripted/nee/1", "skewed-pick"),
         ("mean-bias/cornell_box_point/nee/1", "receiver-cosine-missing"),

@@ -28,7 +28,7 @@ use harness::assignment_folder::AssignmentFolder;
 use serde::Deserialize;
 
 use verdict::check::CheckResult;
-use verdict::error::{Error, Result};
+use verdict::error::Result;
 use verdict::report::{self, Diagnosis, Report};
 use verdict::rubric::Rubric;
 
@@ -76,14 +76,14 @@ struct CausesFile {
 
 impl Catalogue {
     /// Reads the causes and signatures of an assignment. Both files are optional: without them, only direct causes are
-    /// found.
+    /// found. A cause whose variants have no signature yet is found by facts alone.
     ///
     /// # Errors
-    /// If one of the files is invalid, or a variant named by a cause has no signature.
+    /// If one of the files is invalid.
     pub fn load(assignment: &AssignmentFolder, rubric: &Rubric) -> Result<Self> {
         let (words, measured) = (assignment.causes_file(), assignment.signatures_file());
         let facts = assignment.facts_file();
-        let catalogue = Self {
+        Ok(Self {
             causes: if words.is_file() {
                 arty::yaml::read::<CausesFile>(&words)?.0.causes
             } else {
@@ -96,19 +96,7 @@ impl Catalogue {
                 not_begun: rubric.not_begun.clone(),
                 begin: rubric.begin.clone(),
             },
-        };
-        for cause in &catalogue.causes {
-            for variant in &cause.variants {
-                if !catalogue.signatures.is_empty() && catalogue.signatures.get(variant).is_none() {
-                    let message = format!(
-                        "{}: the variant {variant} has no signature; run `cargo lab signatures`",
-                        cause.id
-                    );
-                    return Err(Error::file(&words, message));
-                }
-            }
-        }
-        Ok(catalogue)
+        })
     }
 
     /// The same causes with other signatures.

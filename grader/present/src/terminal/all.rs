@@ -9,6 +9,7 @@ use verdict::check::{CheckId, CheckResult, Verdict};
 use verdict::report::{Report, TaskResult};
 use verdict::sandbox::Level;
 
+use super::audit;
 use super::lines::{bold, loud, paint, paragraph};
 use crate::words::{self, count};
 
@@ -23,6 +24,7 @@ pub(super) fn write(out: &mut impl Write, report: &Report, width: Option<usize>)
     writeln!(out, "{}", table(report, width))?;
     paragraph(out, "", &words::sum(report), width)?;
     write_causes(out, report, width)?;
+    write_facts(out, report)?;
     for task in &report.tasks {
         write_failures(out, task, report, width)?;
     }
@@ -47,6 +49,16 @@ fn write_causes(out: &mut impl Write, report: &Report, width: Option<usize>) -> 
                 paragraph(out, "  ", &format!("{begin}{text}"), width)?;
             }
         }
+    }
+    Ok(())
+}
+
+/// The measured factors that are wrong.
+fn write_facts(out: &mut impl Write, report: &Report) -> io::Result<()> {
+    let failed = report.audit.iter().filter(|audit| audit.failed().next().is_some());
+    for audit in failed {
+        writeln!(out, "\n{}", bold("Measured factors that are wrong (`cargo grader audit` shows all)"))?;
+        audit::write_failed(out, audit)?;
     }
     Ok(())
 }

@@ -19,7 +19,7 @@ pub fn print_audit(audit: &Audit) {
 
 /// Writes the table, then one sentence per failed fact.
 pub(super) fn write_audit(out: &mut impl Write, audit: &Audit, width: Option<usize>) -> io::Result<()> {
-    writeln!(out, "{}", table(audit))?;
+    writeln!(out, "{}", table(&words::audit_rows(audit)))?;
     if let Some(fault) = &audit.fault {
         paragraph(out, "", &format!("the audit ended early: {}", words::fault(fault)), width)?;
     }
@@ -39,14 +39,21 @@ pub(super) fn write_audit(out: &mut impl Write, audit: &Audit, width: Option<usi
     Ok(())
 }
 
+/// Writes the rows of the table in which a fact fails.
+pub(super) fn write_failed(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
+    let mut rows = words::audit_rows(audit);
+    rows.retain(|row| row.iter().any(|fact| fact.fails()));
+    writeln!(out, "{}", table(&rows))
+}
+
 /// One row per factor: what it should be, and what it is at the first, second and third hit.
-fn table(audit: &Audit) -> Table {
+fn table(rows: &[Vec<&Fact>]) -> Table {
     let mut table = Table::new();
     table.load_style(NOTHING).set_content_arrangement(ContentArrangement::Disabled).enforce_styling();
     let heads = ["factor", "should be", "1st hit", "2nd", "3rd"];
     table.set_header(heads.map(|head| Cell::new(head).add_attribute(Attribute::Bold)));
     let mut last = None;
-    for row in words::audit_rows(audit) {
+    for row in rows {
         let first = row[0];
         if last != Some((first.term, first.technique)) {
             let heading = format!("{} (`{}`)", words::fact::heading(first.term), first.technique);

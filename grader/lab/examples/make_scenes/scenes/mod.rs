@@ -6,6 +6,8 @@ pub(crate) mod cornell;
 mod cornell_glossy;
 pub(crate) mod cornell_water;
 mod furnace;
+mod grazing;
+mod lamp_room;
 pub(crate) mod light_behind_wall;
 mod many_lights;
 pub(crate) mod mesh;
@@ -28,6 +30,8 @@ pub(crate) fn all() -> Collection {
     light_behind_wall::add_to(&mut collection);
     mixed_lights::add_to(&mut collection);
     mesh::add_to(&mut collection);
+    grazing::add_to(&mut collection);
+    lamp_room::add_to(&mut collection);
     furnace::add_to(&mut collection);
     planes::add_to(&mut collection);
     collection
