@@ -40,7 +40,7 @@ pub enum CheckKind {
 
 impl CheckKind {
     /// All kinds, by name.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::ClosedForm,
         Self::Efficiency,
         Self::Facts,
