@@ -3,10 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use harness::assignment::Assignment;
+use harness::sandbox::Limits;
 use harness::workspace::Workspace;
+use judge::grade::{Grader, Options};
 use lab::handout::secrets;
 use lab::mutants::{Kind, variants};
 use lab::new_assignment::create;
+use verdict::check::Verdict;
+use verdict::report::Cause;
+use verdict::submission::Submission;
 
 fn workspace() -> Workspace {
     Workspace::find().expect("the tests run inside the checkout")
@@ -148,6 +153,45 @@ fn the_path_tracers_solution_is_the_starting_file_of_the_next_sheet() {
         "assignments/05-nee-mis",
         "assignments/04-path-tracer"
     );
+}
+
+/// 05's are graded by tests of the judge.
+#[test]
+fn the_path_tracers_starting_file_earns_nothing_and_its_solution_everything() {
+    let (workspace, assignment) = (workspace(), "04-path-tracer".to_owned());
+    let options = Options { assignment, seed: 1, threads: 2, only: Vec::new(), limits: Limits::default() };
+    let grader = Grader::new(&workspace, &options).expect("the harness works");
+    let path_tracer = Assignment::open(&workspace, &options.assignment).expect("its rubric is sound");
+    let grade = |file: PathBuf| {
+        let submission = Submission::load_trusted(&file).expect("it is there");
+        grader.grade(&submission, |_| {}).expect("the harness works")
+    };
+    let starter = grade(path_tracer.folder.starter_file());
+    assert_eq!(starter.submission.build_failure, None);
+    assert_eq!(starter.points.earned, 0.0, "{:#?}", starter.tasks);
+    assert!(matches!(starter.diagnosis[0].cause, Cause::NotBegun { .. }), "{:?}", starter.diagnosis);
+    let solution = grade(path_tracer.solution_file());
+    let failed: Vec<_> = solution.checks.iter().filter(|check| check.verdict != Verdict::Pass).collect();
+    assert!(failed.is_empty(), "{failed:#?}");
+    assert_eq!(solution.points.earned, solution.points.automatic_max);
+}
+
+#[test]
+fn a_rubric_that_asks_for_a_mean_that_cannot_be_judged_is_refused() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let rubric =
+        std::fs::read_to_string(workspace().assignment("04-path-tracer").rubric_file()).expect("it is there");
+    let (known, small) = (
+        "mean-bias, scene: glossy_plane, technique: bsdf, max_bounces: 0",
+        "mean-bias, scene: cornell_box, technique: bsdf, max_bounces: 1",
+    );
+    std::fs::write(folder.path().join("rubric.yml"), rubric.replace(known, small))
+        .expect("it can be written");
+    let assignment = folder.path().display().to_string();
+    let only = vec!["cornell_box".to_owned()];
+    let options = Options { assignment, seed: 1, threads: 1, only, limits: Limits::default() };
+    let message = Grader::new(&workspace(), &options).err().expect("it is refused").to_string();
+    assert!(message.contains("cornell_box") && message.contains("% of the bounces"), "{message}");
 }
 
 #[test]

@@ -29,18 +29,28 @@ pub(super) fn load_scenes(
         if !(scenes.contains_key(&spec.scene) || is_missing(&spec.scene)) {
             scenes.insert(spec.scene.clone(), load_scene(workspace, &spec.scene)?);
         }
-        if let Some(lacking) = scenes.get(&spec.scene).and_then(|scene| scene.reference.lacks(spec)) {
-            let scene = &spec.scene;
-            return Err(Error::file(
-                &workspace.reference_file(scene),
-                format!(
-                    "{} needs {lacking}, which it lacks; create it with `cargo lab reference {scene}`",
-                    spec.id()
-                ),
-            ));
-        }
     }
     Ok(scenes)
+}
+
+/// Makes sure that the references have what the selected checks need of them.
+///
+/// # Errors
+/// The first check whose reference lacks something, with the command that adds it.
+pub(super) fn require_references(
+    workspace: &Workspace,
+    selected: &Selected<'_>,
+    scenes: &BTreeMap<String, SceneWithReference>,
+) -> Result<()> {
+    for (_, spec) in selected {
+        if let Some(lacking) = scenes.get(&spec.scene).and_then(|scene| scene.reference.lacks(spec)) {
+            let (id, scene) = (spec.id(), &spec.scene);
+            let message =
+                format!("it lacks {lacking}, which {id} needs: run `cargo lab reference --missing {scene}`");
+            return Err(Error::file(&workspace.reference_file(scene), message));
+        }
+    }
+    Ok(())
 }
 
 /// Loads a scene of `scenes/` with its reference.

@@ -33,7 +33,7 @@ use verdict::rubric::Rubric;
 use verdict::submission::{BuildFailure, IntakeFinding, Submission};
 use verdict::text::clean;
 
-use inputs::{hash_of_file, hash_of_references, load_scenes};
+use inputs::{hash_of_file, hash_of_references, load_scenes, require_references};
 use select::{Selected, select};
 
 pub use inputs::load_scene;
@@ -106,6 +106,7 @@ impl Grader {
         );
         let (scenes, framework) = (scenes?, framework?);
         plan::validate_in_scenes(&selected, &scenes)?;
+        require_references(workspace, &selected, &scenes)?;
         let oracle = Oracle::of(workspace, &assignment, &framework)?;
         let framework_time = start.elapsed().as_secs_f64();
         let skipped = plan::skipped(&scenes);

@@ -68,3 +68,44 @@ impl Reference {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::Moments;
+    use super::*;
+    use verdict::check::CheckKind;
+
+    #[test]
+    fn a_reference_lacks_the_views_and_techniques_that_it_does_not_hold() {
+        let mut reference = Reference::default();
+        let spec = CheckSpec::new(CheckKind::MeanBias, Technique::Bsdf, 8);
+        assert_eq!(reference.lacks(&spec).as_deref(), Some("bounces8 with bsdf"));
+        let view = reference.views.entry(spec.view()).or_default();
+        view.techniques.insert("mis", Moments::default());
+        assert_eq!(reference.lacks(&spec).as_deref(), Some("bounces8 with bsdf"));
+        let view = reference.views.entry(spec.view()).or_default();
+        view.techniques.insert("bsdf", Moments::default());
+        assert_eq!(reference.lacks(&spec), None);
+        let randomness = CheckSpec::new(CheckKind::Randomness, Technique::Bsdf, 3);
+        assert_eq!(reference.lacks(&randomness).as_deref(), Some("bounces3"));
+    }
+
+    /// References are complete: nobody has to wait for one at the beginning of a course.
+    #[test]
+    fn the_references_hold_what_the_rubrics_of_all_assignments_ask_for() {
+        let workspace = Workspace::find().expect("the tests run inside the checkout");
+        let wanted = wanted_of_all(&workspace).expect("each scene has a solution that renders it");
+        for name in workspace.assignments().expect("they can be listed") {
+            let rubric = Assignment::open(&workspace, &name).expect("it is sound").rubric;
+            for (_, spec) in rubric.checks().filter(|(_, spec)| spec.check.needs_scene()) {
+                assert!(wanted[&spec.scene].0.contains_key(&spec.view()), "{name}: {}", spec.id());
+                let file = workspace.scene_file(&spec.scene);
+                let description = arty::scene::file::load(&file).expect("it is there").description;
+                let path = workspace.reference_file(&spec.scene);
+                let reference =
+                    super::super::load(&path, &spec.scene, &description).expect("it is up to date");
+                assert_eq!(reference.lacks(spec), None, "{name}: {}", spec.id());
+            }
+        }
+    }
+}
