@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use arty::integrator::Technique;
 use serde::{Deserialize, Serialize};
 
 use intake::Intake;
@@ -101,15 +100,13 @@ impl Record {
 
 /// Computes [`Record::work`].
 fn work(report: &Report) -> Option<f64> {
+    // The one that the others lead to.
+    let last = report.checks.iter().map(|check| check.id.technique).max()?;
     let looked_at = |check: &&CheckResult| {
-        check.id.kind == CheckKind::Efficiency && check.id.technique == Technique::Mis && check.samples > 0
+        check.id.kind == CheckKind::Efficiency && check.id.technique == last && check.samples > 0
     };
     // What leaves light out has little noise.
-    if report
-        .checks
-        .iter()
-        .any(|check| check.id.technique == Technique::Mis && check.verdict == Verdict::Fail)
-    {
+    if report.checks.iter().any(|check| check.id.technique == last && check.verdict == Verdict::Fail) {
         return None;
     }
     let logs: Vec<f64> = report

@@ -40,10 +40,10 @@ const EXCLUDED: [&str; 2] = ["scenes/hidden", "references/hidden"];
 const TEST_FILES: [&str; 2] = ["tests.rs", "test_scenes.rs"];
 
 /// Included files of the assignment. `course.yml` is not: it names students with extensions.
-const OF_ASSIGNMENT: [&str; 4] = ["sheet.md", "rubric.yml", "starter.rs", "figures"];
+const OF_ASSIGNMENT: [&str; 3] = ["sheet.md", "rubric.yml", "starter.rs"];
 
-/// Files of the assignment that are included if they exist: causes of mistakes and their signatures.
-const OPTIONAL: [&str; 3] = ["causes.yml", "facts.json", "signatures.json"];
+/// Files of the assignment that are included if they exist: figures, causes of mistakes and their signatures.
+const OPTIONAL: [&str; 4] = ["figures", "causes.yml", "facts.json", "signatures.json"];
 
 /// Files of the assignment that are moved, if they exist.
 const MOVED: [(&str, &str); 3] = [
@@ -93,7 +93,7 @@ fn files(
     }
     files.retain(|(path, _)| !EXCLUDED.iter().any(|kept| path.starts_with(kept)));
     for name in OPTIONAL.map(|name| own.join(name)) {
-        if root.join(&name).is_file() {
+        if root.join(&name).exists() {
             collect(root, &name, &mut files)?;
         }
     }

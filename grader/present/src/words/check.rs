@@ -78,6 +78,7 @@ fn of_evidence(evidence: &Evidence, check: &CheckResult) -> String {
         Evidence::MisWeights(test) => weights::weights(test),
         Evidence::Randomness(numbers) => randomness(*numbers),
         Evidence::PathLength(paths) => path_length(paths),
+        Evidence::RayBudget(rays) if check.id.technique == Technique::Bsdf => long_paths(rays),
         Evidence::RayBudget(rays) => ray_budget(rays),
         Evidence::Stability(test) => stability::stability(test, verdict),
     }
@@ -208,6 +209,17 @@ fn path_length(paths: &PathLengths) -> String {
             paths.max_bounces
         ),
     }
+}
+
+fn long_paths(rays: &RayCounts) -> String {
+    let Some(TooManyRays { bounces, rays, allowed, .. }) = rays.excess else {
+        return "most long paths end early".to_owned();
+    };
+    format!(
+        "a path of up to {} traces {} on average; Russian roulette leaves less than {allowed} between dark walls",
+        count(bounces as usize, "bounce"),
+        count(rays as usize, "ray")
+    )
 }
 
 fn ray_budget(rays: &RayCounts) -> String {

@@ -71,6 +71,27 @@ fn selection_is_only_blamed_where_lights_differ() {
 }
 
 #[test]
+fn long_paths_of_bsdf_sampling() {
+    let said = |excess| {
+        let rays = Evidence::RayBudget(RayCounts {
+            excess,
+            lights: 8,
+            shadow_rays_at_mirrors: false,
+            shadow_rays_without_lights: false,
+            panic_without_lights: None,
+        });
+        let mut check = check(Verdict::Fail, rays);
+        check.id.technique = Technique::Bsdf;
+        explanation(&check)
+    };
+    assert_eq!(said(None), "most long paths end early");
+    assert_eq!(
+        said(Some(TooManyRays { bounces: 64, shadow_rays: 0, rays: 65, allowed: 32 })),
+        "a path of up to 64 bounces traces 65 rays on average; Russian roulette leaves less than 32 between dark walls"
+    );
+}
+
+#[test]
 fn random_numbers_and_rays() {
     let shared = RandomNumbers::SharedByPixels { excess: 3.11, pixels: PixelGroup::Row };
     let rays = |excess| {
