@@ -16,31 +16,54 @@ pub(super) struct Albedo {
     pub(super) error: f64,
 }
 
-impl Albedo {
+/// Quadrature over the hemisphere, in two resolutions.
+pub(super) struct Quadrature {
+    fine: Vec<Node>,
+    coarse: Vec<Node>,
+}
+
+/// A direction around the normal, and its share of the integral over the projected hemisphere.
+struct Node {
+    direction: Vec3,
+    weight: f64,
+}
+
+impl Quadrature {
+    /// Prepares the nodes, which do not depend on the surface.
+    pub(super) fn new() -> Self {
+        Self { fine: nodes(ANGLES), coarse: nodes((ANGLES.0 / 2, ANGLES.1 / 2)) }
+    }
+
     /// ∫ f cos θ dω at a hit point.
-    pub(super) fn at(hit: &Hit<'_>) -> Self {
-        let value = integrate(hit, ANGLES);
-        let coarse = integrate(hit, (ANGLES.0 / 2, ANGLES.1 / 2));
+    pub(super) fn albedo(&self, hit: &Hit<'_>) -> Albedo {
+        let (value, coarse) = (integrate(hit, &self.fine), integrate(hit, &self.coarse));
         let error = (0..3).map(|channel| (value[channel] - coarse[channel]).abs()).fold(0.0, f64::max);
-        Self { value, error }
+        Albedo { value, error }
     }
 }
 
 /// Spherical coordinates around the normal, so that the horizon, where a lobe is cut off, is the end of an interval. Gauss
 /// and Legendre's rule for the polar angle, equal steps of the azimuth: both converge exponentially for smooth lobes.
-fn integrate(hit: &Hit<'_>, (polar, azimuths): (usize, usize)) -> [f64; 3] {
+fn nodes((polar, azimuths): (usize, usize)) -> Vec<Node> {
+    let ring = |(node, weight): (f64, f64)| {
+        let (sin, cos) = (0.25 * PI * (1.0 + node)).sin_cos();
+        let solid_angle = 0.25 * PI * weight * sin * 2.0 * PI / azimuths as f64;
+        (0..azimuths).map(move |step| {
+            let azimuth = 2.0 * PI * (step as f64 + 0.5) / azimuths as f64;
+            let direction = Vec3::new((sin * azimuth.cos()) as f32, (sin * azimuth.sin()) as f32, cos as f32);
+            Node { direction, weight: cos * solid_angle }
+        })
+    };
+    gauss_legendre(polar).flat_map(ring).collect()
+}
+
+fn integrate(hit: &Hit<'_>, nodes: &[Node]) -> [f64; 3] {
     let bsdf = hit.bsdf();
     let frame = Frame::around(hit.normal);
     let mut sum = [0.0; 3];
-    for (node, weight) in gauss_legendre(polar) {
-        let (sin, cos) = (0.25 * PI * (1.0 + node)).sin_cos();
-        let solid_angle = 0.25 * PI * weight * sin * 2.0 * PI / azimuths as f64;
-        for step in 0..azimuths {
-            let azimuth = 2.0 * PI * (step as f64 + 0.5) / azimuths as f64;
-            let local = Vec3::new((sin * azimuth.cos()) as f32, (sin * azimuth.sin()) as f32, cos as f32);
-            let f = bsdf.eval(frame.to_world(local)).to_array();
-            (0..3).for_each(|channel| sum[channel] += f64::from(f[channel]) * cos * solid_angle);
-        }
+    for node in nodes {
+        let f = bsdf.eval(frame.to_world(node.direction)).to_array();
+        (0..3).for_each(|channel| sum[channel] += f64::from(f[channel]) * node.weight);
     }
     sum
 }
@@ -113,7 +136,7 @@ mod tests {
             for cos in [1.0f64, 0.8, 0.4, 0.1] {
                 let back = Vec3::new((1.0 - cos * cos).sqrt() as f32, cos as f32, 0.0);
                 let hit = scene.intersect(&Ray::new(2.0 * back, -back)).expect("it hits the floor");
-                let albedo = Albedo::at(&hit);
+                let albedo = Quadrature::new().albedo(&hit);
                 let difference = (albedo.value[0] - 0.5 * exact(cos, exponent)).abs();
                 assert!(albedo.error < 1e-3, "{exponent}, {cos}: {}", albedo.error);
                 // 1e-5 for single precision and for the midpoints.

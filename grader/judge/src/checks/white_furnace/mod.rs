@@ -25,7 +25,7 @@ use super::{
 use crate::reference::SIZE;
 use crate::statistics::expected::Expected;
 use crate::statistics::sequential::{Decision, Judgement};
-use albedo::Albedo;
+use albedo::Quadrature;
 
 /// Rays per pixel for albedos that depend on the angle.
 const RAYS: u32 = 16;
@@ -165,18 +165,19 @@ impl Furnace {
 
     /// The albedo varies over a pixel, and its quadrature has an error, too.
     fn glossy_picture(&self, scene: &Scene) -> Pixels {
-        let mut quadrature: f64 = 0.0;
+        let quadrature = Quadrature::new();
+        let mut quadrature_error: f64 = 0.0;
         let radiance = |ray: &Ray| {
             let hit = scene.intersect(ray).ok_or(WhyNot::NotEnclosed)?;
-            let albedo = Albedo::at(&hit);
-            quadrature = quadrature.max(albedo.error);
+            let albedo = quadrature.albedo(&hit);
+            quadrature_error = quadrature_error.max(albedo.error);
             Ok(std::array::from_fn(|c| self.emission[c] * (1.0 + albedo.value[c])))
         };
         // In a closed scene, every ray hits something.
         let mut pixels =
             Pixels::integrate(scene, RAYS, radiance).unwrap_or_else(|_| self.constant(self.emission));
         for error in &mut pixels.error {
-            (0..3).for_each(|channel| error[channel] += self.emission[channel] * quadrature);
+            (0..3).for_each(|channel| error[channel] += self.emission[channel] * quadrature_error);
         }
         pixels
     }
