@@ -288,3 +288,27 @@ fn shells_get_completions() {
         assert!(text(&output.stdout).contains(sign), "{shell}");
     }
 }
+
+/// What is on the search path of a student is Cargo alone.
+#[test]
+#[cfg(unix)]
+fn bash_completes_the_commands_of_cargo() {
+    let script = text(&grader(&root(), &["completions", "bash"]).stdout).to_owned();
+    let complete = |line: &str| -> Vec<String> {
+        let words: Vec<&str> = line.split(' ').collect();
+        let (last, before) = (words[words.len() - 1], words[words.len() - 2]);
+        let call = format!(
+            "{script}\nCOMP_WORDS=({line})\n[ -n '{last}' ] || COMP_WORDS+=('')\nCOMP_CWORD={}\n_arty_of_cargo cargo '{last}' \
+             '{before}'\nprintf '%s\\n' \"${{COMPREPLY[@]}}\"",
+            words.len() - 1
+        );
+        let bash = Command::new("bash").args(["--norc", "-c", &call]).output().expect("bash starts");
+        text(&bash.stdout).lines().map(str::to_owned).collect()
+    };
+    assert!(complete("cargo grade --wat").contains(&"--watch".to_owned()));
+    assert!(complete("cargo hint --rep").contains(&"--report".to_owned()));
+    assert!(complete("cargo grader rep").contains(&"replay".to_owned()));
+    assert!(complete("cargo grader replay --pix").contains(&"--pixel".to_owned()));
+    assert!(complete("cargo arty --tech").contains(&"--technique".to_owned()));
+    assert!(complete("cargo arty --technique ").contains(&"nee".to_owned()));
+}

@@ -1,6 +1,8 @@
 //! Accumulation of samples.
 
-use crate::math::Rgb;
+use std::panic::Location;
+
+use crate::math::{Rgb, first_non_finite_sum};
 
 /// For each pixel the number, the sum and the sum of squares of its samples, in double precision.
 ///
@@ -47,6 +49,8 @@ pub struct Anomaly {
     pub sample: u64,
     /// The value of the sample.
     pub value: Rgb,
+    /// The addition of colours after which it was NaN or infinite; `None` if it is finite, or no sum made it so.
+    pub sum: Option<&'static Location<'static>>,
 }
 
 impl Film {
@@ -154,7 +158,8 @@ impl Anomalies {
         } else {
             self.non_finite += 1;
         }
-        self.keep(Anomaly { x, y, sample, value });
+        let sum = if value.is_finite() { None } else { first_non_finite_sum() };
+        self.keep(Anomaly { x, y, sample, value, sum });
     }
 
     /// Keeps an anomaly if it is among the first, in whatever order they are reported.

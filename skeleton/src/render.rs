@@ -8,7 +8,7 @@ use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use crate::camera::Camera;
 use crate::film::{Anomalies, Film, Pixel};
 use crate::integrator::Integrator;
-use crate::math::Rgb;
+use crate::math::{Rgb, forget_sums};
 use crate::sampler::Sampler;
 use crate::scene::Scene;
 
@@ -24,6 +24,7 @@ pub fn sample_pixel(
     (x, y): (u32, u32),
     sample: u64,
 ) -> Rgb {
+    forget_sums();
     let mut sampler = Sampler::new(seed, (x, y), sample);
     let ray = camera.ray(x, y, sampler.draw_2d());
     integrator.radiance(scene, ray, &mut sampler)

@@ -49,7 +49,7 @@ pub(crate) fn batches(key: &Key, constructor: Constructor, scene: &Scene, job: &
         let anomalies = film.anomalies();
         rendered.non_finite += anomalies.non_finite;
         rendered.negative += anomalies.negative;
-        let named = |&Anomaly { x, y, sample, value }: &Anomaly| AnomalousSample {
+        let named = |&Anomaly { x, y, sample, value, .. }: &Anomaly| AnomalousSample {
             seed,
             x,
             y,

@@ -1,5 +1,8 @@
 //! Replaying one path with every call recorded.
 
+use std::path::Path;
+
+use arty::math::{Rgb, first_non_finite_sum};
 use arty::probe::{self, Key, start_recording, take_recording};
 use arty::render::sample_pixel;
 use arty::scene::Scene;
@@ -24,9 +27,15 @@ pub(crate) fn path(key: &Key, constructor: Constructor, scene: &Scene, job: &Rep
         given: values(call.given),
         got: values(call.got),
     };
-    Replayed {
-        radiance: radiance.to_array(),
-        calls: recording.calls.into_iter().map(call).collect(),
-        left_out: recording.left_out,
-    }
+    let mut calls: Vec<Call> = recording.calls.into_iter().map(call).collect();
+    calls.extend(non_finite_sum(radiance));
+    Replayed { radiance: radiance.to_array(), calls, left_out: recording.left_out }
+}
+
+/// The addition after which a path's radiance was NaN or infinite, as the last entry of its calls.
+fn non_finite_sum(radiance: Rgb) -> Option<Call> {
+    let sum = first_non_finite_sum().filter(|_| !radiance.is_finite())?;
+    let file = Path::new(sum.file()).file_name().unwrap_or_default().to_string_lossy();
+    let function = "NaN or infinite since the sum in".to_owned();
+    Some(Call { function, given: Vec::new(), got: vec![(format!("{file}, line"), vec![sum.line() as f32])] })
 }

@@ -107,7 +107,7 @@ impl Arguments {
 const STAFF_COMMANDS: [&str; 7] = ["class", "mark", "merge", "plan", "export", "converge", "similar"];
 
 /// Options of `grade` that `--help` shows only there.
-const STAFF_OPTIONS: [&str; 4] = ["missing_is_zero", "received_at", "course", "student"];
+const STAFF_OPTIONS: [&str; 5] = ["missing_is_zero", "secret_seed", "received_at", "course", "student"];
 
 /// The command line. Where the checkout has no solution, it is a student's: what only staff use still works, but is not
 /// shown.

@@ -72,6 +72,11 @@ impl DebugView {
     }
 }
 
+/// The options of the program, for completions.
+pub fn command_line() -> clap::Command {
+    <Args as clap::CommandFactory>::command()
+}
+
 /// Runs the program with the arguments of this process; `make` makes the integrator for an algorithm and
 /// the scene that it will render.
 ///

@@ -55,8 +55,12 @@ pub(super) fn anomalies(anomalies: &Anomalies) -> Option<String> {
         })
         .collect();
     let value = first.value.to_array();
+    // Where it stands, so that editors and terminals turn it into a link.
+    let since = first.sum.map_or(String::new(), |sum| {
+        format!("; the first sum that is NaN or infinite is in {}:{}", sum.file(), sum.line())
+    });
     Some(format!(
-        "{}; the first is sample {} of pixel ({}, {}): {value:?}",
+        "{}; the first is sample {} of pixel ({}, {}): {value:?}{since}",
         kinds.join(", "),
         first.sample,
         first.x,
@@ -141,7 +145,7 @@ mod tests {
     #[test]
     fn anomalies_are_counted_and_the_first_is_located() {
         assert_eq!(anomalies(&Anomalies::default()), None);
-        let first = vec![Anomaly { x: 3, y: 4, sample: 7, value: Rgb::new(f32::NAN, 0.5, -1.0) }];
+        let first = vec![Anomaly { x: 3, y: 4, sample: 7, value: Rgb::new(f32::NAN, 0.5, -1.0), sum: None }];
         let text = anomalies(&Anomalies { non_finite: 1, negative: 12, first }).expect("a warning");
         assert_eq!(
             text,

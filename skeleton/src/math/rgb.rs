@@ -1,6 +1,7 @@
 //! Linear RGB values: radiance, intensity, reflectance, throughput.
 
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+use std::panic::Location;
 
 use serde::{Deserialize, Serialize};
 
@@ -89,8 +90,13 @@ impl From<[f32; 3]> for Rgb {
 impl Add for Rgb {
     type Output = Self;
     #[inline]
+    #[track_caller]
     fn add(self, other: Self) -> Self {
-        Self::new(self.r + other.r, self.g + other.g, self.b + other.b)
+        let sum = Self::new(self.r + other.r, self.g + other.g, self.b + other.b);
+        if !sum.is_finite() && self.is_finite() {
+            super::non_finite::record(Location::caller());
+        }
+        sum
     }
 }
 
@@ -144,6 +150,7 @@ impl Div<f32> for Rgb {
 
 impl AddAssign for Rgb {
     #[inline]
+    #[track_caller]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
