@@ -5,6 +5,7 @@
 
 mod course;
 mod grading;
+mod manifests;
 mod marks;
 mod names;
 mod shards;

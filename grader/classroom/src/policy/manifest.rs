@@ -94,7 +94,7 @@ impl Manifest {
             let md5 = cell(md5).map(str::to_lowercase);
             if md5.as_ref().is_some_and(|md5| md5.len() != 32 || !md5.bytes().all(|b| b.is_ascii_hexdigit()))
             {
-                return Err(blame("an MD5 checksum has 32 hexadecimal digits".to_owned()));
+                return Err(blame("column `md5`: an MD5 checksum has 32 hexadecimal digits".to_owned()));
             }
             let receipt = Receipt {
                 received_at: time(Some(received_at))?,
