@@ -14,8 +14,8 @@ use std::time::Duration;
 use arty::integrator::Settings;
 use arty::scene::SceneDescription;
 use host::protocol::{
-    AuditJob, AuditedRun, ProbeJob, ProbedPath, RenderJob, Rendered, ReplayJob, Replayed, Request, Response,
-    Switches, UNCONFINED, write_message,
+    AuditJob, AuditedRun, DirectionJob, ProbeJob, ProbedPath, RenderJob, Rendered, ReplayJob, Replayed,
+    Request, Response, SampledDirections, Switches, UNCONFINED, write_message,
 };
 use verdict::check::Fault;
 use verdict::error::{Error, Result};
@@ -232,6 +232,22 @@ impl HostProcess {
         match self.ask(&Request::Audit(Cow::Borrowed(job)), time.min(self.job_time))? {
             Response::Audited(runs) if runs.len() == job.runs.len() => Ok(runs),
             Response::Audited(_) => Err(malformed("the number of runs is wrong")),
+            other => Err(unexpected(other)),
+        }
+    }
+
+    /// Samples directions of a scene's environment. There are as many answers as the job asks for; their numbers are not
+    /// checked.
+    pub fn directions(&mut self, job: &DirectionJob) -> Answer<SampledDirections> {
+        self.lights(job.scene)?;
+        match self.ask(&Request::Directions(Cow::Borrowed(job)), self.job_time)? {
+            Response::Directions(sampled)
+                if sampled.samples.len() == job.samples as usize
+                    && sampled.densities.len() == job.directions.len() =>
+            {
+                Ok(sampled)
+            }
+            Response::Directions(_) => Err(malformed("the number of directions is wrong")),
             other => Err(unexpected(other)),
         }
     }

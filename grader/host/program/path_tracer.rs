@@ -1,4 +1,7 @@
 
 fn main() -> std::process::ExitCode {
-    host::serve(|settings| Box::new(student_file::PathTracer::new(settings)))
+    host::serve(host::Submission {
+        path_tracer: |settings, _| Box::new(student_file::PathTracer::new(settings)),
+        directions: None,
+    })
 }

@@ -5,11 +5,11 @@ use arty::ray::Ray;
 use arty::sampler::Sampler;
 use arty::scene::Scene;
 
-use crate::constructor::Constructor;
 use crate::protocol::{AuditJob, AuditRun, AuditSampling, AuditScene, AuditedRun};
+use crate::submission::Submission;
 
 /// All runs of a valid job.
-pub(crate) fn all(key: &Key, constructor: Constructor, job: &AuditJob) -> Vec<AuditedRun> {
+pub(crate) fn all(key: &Key, submission: Submission, job: &AuditJob) -> Vec<AuditedRun> {
     let scenes: Vec<Scene> = job.scenes.iter().map(build).collect();
     let mut black_when_hit: Vec<Scene> = job.scenes.iter().map(build).collect();
     black_when_hit.iter_mut().for_each(Scene::blacken_hits);
@@ -18,15 +18,15 @@ pub(crate) fn all(key: &Key, constructor: Constructor, job: &AuditJob) -> Vec<Au
         let built = if audited.emission_on_hit { &scenes } else { &black_when_hit };
         let scene = &built[audited.scene as usize];
         let ray = Ray::new(scripted.origin, scripted.direction);
-        let result = run(key, constructor, audited, scene, ray);
+        let result = run(key, submission, audited, scene, ray);
         probe::set_strata(key, None);
         result
     });
     runs.collect()
 }
 
-fn run(key: &Key, constructor: Constructor, run: &AuditRun, scene: &Scene, ray: Ray) -> AuditedRun {
-    let integrator = constructor(run.settings);
+fn run(key: &Key, submission: Submission, run: &AuditRun, scene: &Scene, ray: Ray) -> AuditedRun {
+    let integrator = (submission.path_tracer)(run.settings, scene);
     let count = f64::from(run.paths);
     let mut values = Vec::with_capacity(run.paths as usize);
     let (mut rays, mut light_samples) = ([u32::MAX, 0], [u32::MAX, 0]);

@@ -13,7 +13,7 @@
 mod audit;
 pub mod confine;
 #[cfg(feature = "serve")]
-mod constructor;
+mod directions;
 #[cfg(feature = "serve")]
 mod probe;
 pub mod protocol;
@@ -25,10 +25,12 @@ mod replay;
 mod serve;
 #[cfg(feature = "serve")]
 mod stdio;
+#[cfg(feature = "serve")]
+mod submission;
 
 #[cfg(feature = "serve")]
 pub use arty::probe::record_print as printed;
 #[cfg(feature = "serve")]
-pub use constructor::Constructor;
-#[cfg(feature = "serve")]
 pub use serve::serve;
+#[cfg(feature = "serve")]
+pub use submission::Submission;

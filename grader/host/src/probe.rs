@@ -7,16 +7,16 @@ use arty::ray::Ray;
 use arty::sampler::Sampler;
 use arty::scene::Scene;
 
-use crate::constructor::Constructor;
 use crate::protocol::{ProbeJob, ProbedPath, ScriptedScene};
+use crate::submission::Submission;
 
 /// All paths of a job, by scene.
-pub(crate) fn all(key: &Key, constructor: Constructor, job: &ProbeJob) -> Vec<Vec<ProbedPath>> {
-    let integrator = constructor(job.settings);
+pub(crate) fn all(key: &Key, submission: Submission, job: &ProbeJob) -> Vec<Vec<ProbedPath>> {
     job.scenes
         .iter()
         .map(|scripted| {
             let scene = build(scripted);
+            let integrator = (submission.path_tracer)(job.settings, &scene);
             let ray = Ray::new(scripted.origin, scripted.direction);
             let paths = (0..job.samples).map(|sample| {
                 probe::set_strata(key, job.stratified.then(|| strata(job, sample)));

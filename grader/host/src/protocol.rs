@@ -11,8 +11,10 @@ use arty::scene::SceneDescription;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 mod audit;
+mod directions;
 
 pub use audit::{AuditBsdf, AuditJob, AuditLight, AuditRun, AuditSampling, AuditScene, AuditedRun};
+pub use directions::{DirectionJob, SampledDirection, SampledDirections};
 
 /// Maximum length of a message in bytes. Scenes are the longest messages: a million triangles take about 60 MB.
 pub const MAX_MESSAGE: u32 = 512 << 20;
@@ -30,6 +32,8 @@ pub enum Request<'a> {
     Replay(ReplayJob),
     /// Measure factors of the estimator in scripted scenes.
     Audit(Cow<'a, AuditJob>),
+    /// Sample directions of a scene's environment.
+    Directions(Cow<'a, DirectionJob>),
 }
 
 /// Replays one path of a picture.
@@ -181,6 +185,8 @@ pub enum Response {
     },
     /// The results of an audit's runs.
     Audited(Vec<AuditedRun>),
+    /// The sampled directions.
+    Directions(SampledDirections),
 }
 
 /// One path of a [`ProbeJob`].

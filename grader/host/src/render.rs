@@ -9,15 +9,15 @@ use arty::scene::Scene;
 use cpu_time::ProcessTime;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
-use crate::constructor::Constructor;
 use crate::protocol::{AnomalousSample, RenderJob, Rendered};
+use crate::submission::Submission;
 
 /// Maximum number of anomalous samples in a response.
 const MAX_ANOMALIES: usize = 16;
 
 /// Renders the batches in parallel, each with its own seed and all with one path tracer, and counts their rays.
-pub(crate) fn batches(key: &Key, constructor: Constructor, scene: &Scene, job: &RenderJob) -> Rendered {
-    let integrator = constructor(job.settings);
+pub(crate) fn batches(key: &Key, submission: Submission, scene: &Scene, job: &RenderJob) -> Rendered {
+    let integrator = (submission.path_tracer)(job.settings, scene);
     take_rays(key);
     let start = ProcessTime::now();
     let films: Vec<(u64, Film)> = job

@@ -7,12 +7,12 @@ use arty::probe::{self, Key, start_recording, take_recording};
 use arty::render::sample_pixel;
 use arty::scene::Scene;
 
-use crate::constructor::Constructor;
 use crate::protocol::{Call, ReplayJob, Replayed};
+use crate::submission::Submission;
 
 /// Computes one sample again and records its calls.
-pub(crate) fn path(key: &Key, constructor: Constructor, scene: &Scene, job: &ReplayJob) -> Replayed {
-    let integrator = constructor(job.settings);
+pub(crate) fn path(key: &Key, submission: Submission, scene: &Scene, job: &ReplayJob) -> Replayed {
+    let integrator = (submission.path_tracer)(job.settings, scene);
     let [width, height] = job.size;
     let [x, y] = job.pixel;
     let camera = scene.camera(width, height);

@@ -10,12 +10,12 @@ use arty::probe::Key;
 use arty::scene::Scene;
 
 use crate::confine::{allow_only_computing, close_files};
-use crate::constructor::Constructor;
 use crate::protocol::{MAX_MESSAGE, Request, Response, UNCONFINED, read_message, write_message};
-use crate::{audit, probe, render, replay, stdio};
+use crate::submission::Submission;
+use crate::{audit, directions, probe, render, replay, stdio};
 
 /// Answers requests until the grader closes the pipe. Exit code 3 if the pipe breaks or this is not the first call.
-pub fn serve(constructor: Constructor) -> ExitCode {
+pub fn serve(submission: Submission) -> ExitCode {
     let (input, output) = match stdio::take() {
         Ok(pipes) => pipes,
         Err(error) => {
@@ -39,7 +39,7 @@ pub fn serve(constructor: Constructor) -> ExitCode {
     keep_panic_messages();
     let mut output = BufWriter::new(output);
     let answered = write_message(&mut output, &Response::Started)
-        .and_then(|()| answer_all(&key, constructor, &mut BufReader::new(input), &mut output));
+        .and_then(|()| answer_all(&key, submission, &mut BufReader::new(input), &mut output));
     match answered {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
@@ -57,7 +57,7 @@ fn start_threads() {
 
 fn answer_all(
     key: &Key,
-    constructor: Constructor,
+    submission: Submission,
     input: &mut impl Read,
     output: &mut impl Write,
 ) -> std::io::Result<()> {
@@ -73,11 +73,18 @@ fn answer_all(
             }
             Request::Render(job) => match scenes.get(job.scene as usize) {
                 None => Response::Rejected { message: format!("there is no scene {}", job.scene) },
-                Some(scene) => guarded(|| Response::Rendered(render::batches(key, constructor, scene, &job))),
+                Some(scene) => guarded(|| Response::Rendered(render::batches(key, submission, scene, &job))),
             },
             Request::Replay(job) => match scenes.get(job.scene as usize) {
                 None => Response::Rejected { message: format!("there is no scene {}", job.scene) },
-                Some(scene) => guarded(|| Response::Replayed(replay::path(key, constructor, scene, &job))),
+                Some(scene) => guarded(|| Response::Replayed(replay::path(key, submission, scene, &job))),
+            },
+            Request::Directions(job) => match scenes.get(job.scene as usize) {
+                None => Response::Rejected { message: format!("there is no scene {}", job.scene) },
+                Some(scene) => guarded(|| match directions::sample(submission, scene, &job) {
+                    None => Response::Rejected { message: "there is nothing to sample".to_owned() },
+                    Some(sampled) => Response::Directions(sampled),
+                }),
             },
             Request::Probe(job)
                 if job.stratified && !(job.samples.is_power_of_two() && job.samples <= 1 << 20) =>
@@ -87,8 +94,8 @@ fn answer_all(
             Request::Audit(job) if !job.is_valid() => {
                 Response::Rejected { message: "an audit's run cannot be made".to_owned() }
             }
-            Request::Audit(job) => guarded(|| Response::Audited(audit::all(key, constructor, &job))),
-            Request::Probe(job) => guarded(|| Response::Probed(probe::all(key, constructor, &job))),
+            Request::Audit(job) => guarded(|| Response::Audited(audit::all(key, submission, &job))),
+            Request::Probe(job) => guarded(|| Response::Probed(probe::all(key, submission, &job))),
         };
         write_message(output, &response)?;
     }

@@ -27,6 +27,10 @@ impl Program {
                 include_str!("../../../host/program/path_tracer.rs"),
                 include_str!("../../../host/program/path_tracer_empty.rs"),
             ),
+            Contract::EnvironmentSampler => (
+                include_str!("../../../host/program/environment_sampler.rs"),
+                include_str!("../../../host/program/environment_sampler_empty.rs"),
+            ),
         };
         let module = file.module();
         let main = main.replace(MODULE, module);

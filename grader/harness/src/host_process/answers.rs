@@ -35,6 +35,7 @@ pub(super) fn unexpected(response: Response) -> JobError {
         Response::Probed(_) => malformed("it sent paths that were not requested"),
         Response::Rendered(_) => malformed("it sent a rendering that was not requested"),
         Response::Audited(_) => malformed("it sent an audit that was not requested"),
+        Response::Directions(_) => malformed("it sent directions that were not requested"),
     }
 }
 
@@ -94,13 +95,14 @@ pub(super) fn check_rays(
     if rays > enough { Err(Fault::TooManyRays { rays, enough }) } else { Ok(rendered) }
 }
 
-/// Number of lights in a scene: those of its own, and triangles that emit.
+/// Number of lights in a scene: those of its own, triangles that emit, and its environment.
 pub(super) fn number_of_lights(scene: &SceneDescription) -> usize {
     let emits = |material: u32| {
         scene.materials.get(material as usize).is_some_and(|material| !material.emission.is_black())
     };
     let triangles = scene.meshes.iter().flat_map(|mesh| &mesh.triangles);
-    scene.lights.len() + triangles.filter(|triangle| emits(triangle.material)).count()
+    let environment = usize::from(scene.environment.is_some());
+    environment + scene.lights.len() + triangles.filter(|triangle| emits(triangle.material)).count()
 }
 
 /// The error of a job for which the machine had hardly any time.

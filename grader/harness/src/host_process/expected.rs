@@ -33,9 +33,14 @@ const LENGTH: u64 = 10;
 const RENDERED: u8 = 2;
 const PROBED: u8 = 3;
 const AUDITED: u8 = 7;
+const DIRECTIONS: u8 = 8;
 
 /// Maximum bytes of one run of an audit: six numbers, and four counts of up to five bytes.
 const AUDITED_RUN: u64 = 6 * 8 + 4 * 5;
+
+/// Maximum bytes of a sampled direction, five numbers, and bytes of a density.
+const DIRECTION: u64 = 1 + 5 * 4;
+const DENSITY: u64 = 4;
 
 impl Expected {
     /// The message that a process has started.
@@ -62,6 +67,11 @@ impl Expected {
                 let runs = job.runs.len() as u64;
                 Self::of(runs.saturating_mul(AUDITED_RUN), Some((AUDITED, runs)))
             }
+            Request::Directions(job) => {
+                let (samples, densities) = (u64::from(job.samples), job.directions.len() as u64);
+                let bytes = samples * DIRECTION + densities * DENSITY + 2 * LENGTH;
+                Self::of(bytes, Some((DIRECTIONS, samples)))
+            }
             Request::Replay(_) => Self::of(CALL * CALLS, None),
         }
     }
@@ -79,7 +89,7 @@ impl Expected {
         let right = match counted {
             Some((_, parts)) => length(&bytes[1..]) == Some(parts),
             // Those with parts that nobody asked for.
-            None => !matches!(kind, Some(RENDERED | PROBED | AUDITED)),
+            None => !matches!(kind, Some(RENDERED | PROBED | AUDITED | DIRECTIONS)),
         };
         if !right {
             return Err(io::Error::new(io::ErrorKind::InvalidData, "the number of its parts is wrong"));
@@ -105,8 +115,10 @@ mod tests {
     use std::borrow::Cow;
 
     use arty::integrator::{Settings, Technique};
+    use arty::math::Vec3;
     use host::protocol::{
-        AuditJob, AuditRun, AuditedRun, ProbeJob, ProbedPath, RenderJob, Rendered, write_message,
+        AuditJob, AuditRun, AuditedRun, DirectionJob, ProbeJob, ProbedPath, RenderJob, Rendered,
+        SampledDirection, SampledDirections, write_message,
     };
 
     use super::*;
@@ -173,6 +185,13 @@ mod tests {
         };
         let response = Response::Audited(vec![longest; 1000]);
         assert_eq!(read(expected, &response).expect("it is read"), Some(response));
+        let directions = vec![Vec3::Y; 500];
+        let job = DirectionJob { scene: 0, samples: 1000, seed: 1, directions };
+        let expected = Expected::answer_to(&Request::Directions(Cow::Owned(job)));
+        let sample = SampledDirection { wi: Vec3::Y, pdf: 1.0, density: 1.0 };
+        let sampled = SampledDirections { samples: vec![Some(sample); 1000], densities: vec![1.0; 500] };
+        let response = Response::Directions(sampled);
+        assert_eq!(read(expected, &response).expect("it is read"), Some(response));
         let words = Response::Panicked { message: "\u{10000}".repeat(3000) };
         assert_eq!(read(Expected::start(), &words).expect("it is read"), Some(words));
     }
@@ -186,6 +205,9 @@ mod tests {
         assert!(error(&rendered(vec![vec![[0.0; 3]; 4000]; 3])).contains("bytes"));
         let run = AuditedRun { mean: [0.0; 3], spread: [0.0; 3], rays: [0; 2], light_samples: [0; 2] };
         assert!(read(Expected::start(), &Response::Audited(vec![run])).is_err());
+        let sampled = SampledDirections { samples: vec![None; 9000], densities: Vec::new() };
+        assert!(error(&Response::Directions(sampled.clone())).contains("parts"));
+        assert!(read(Expected::start(), &Response::Directions(sampled)).is_err());
         let path = ProbedPath { radiance: [0.0; 3], rays: 0, shadow_rays: 0, light_samples: 0 };
         assert!(read(Expected::start(), &Response::Probed(vec![vec![path]])).is_err());
     }

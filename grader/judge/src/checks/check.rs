@@ -6,7 +6,7 @@ use arty::integrator::Technique;
 use harness::job::JobError;
 use serde::{Deserialize, Serialize};
 use verdict::check::{
-    CheckKind, Evidence, MeanTest, Numerics, OnlyWay, Place, Reason, SceneChange, Verdict, WhyNot,
+    CheckKind, Evidence, MeanTest, Numerics, OnlyWay, Place, Reason, SampledMap, SceneChange, Verdict, WhyNot,
 };
 use verdict::rubric::{CheckSpec, EmissionOnHit};
 
@@ -195,6 +195,8 @@ pub enum WrongPlace {
     ExtremeScene(String),
     /// Scripted densities.
     Densities,
+    /// A map whose directions are sampled.
+    Map(SampledMap),
     /// Different seeds give the same image.
     SameImage,
     /// Rendering the same seed again gives another image.

@@ -64,7 +64,7 @@ impl Check for Efficiency {
 
     fn applies(&self, scene: &SceneWithReference, spec: &CheckSpec) -> Result<(), WhyNot> {
         let features = scene.scene.features();
-        if features.area_lights == 0 {
+        if features.area_lights == 0 && !features.environment {
             return Err(WhyNot::OneTechnique);
         }
         if features.lit_surfaces == 0 {

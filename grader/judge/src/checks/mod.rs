@@ -20,6 +20,7 @@ mod path_length;
 mod randomness;
 mod rare_light;
 mod ray_budget;
+mod sampling;
 mod stability;
 #[cfg(test)]
 mod test_scenes;
@@ -47,6 +48,7 @@ static REGISTRY: [&dyn Check; CheckKind::ALL.len()] = [
     &path_length::PathLength,
     &randomness::Randomness,
     &ray_budget::RayBudget,
+    &sampling::Sampling,
     &stability::Stability,
     &varied_scene::VariedScene,
     &white_furnace::WhiteFurnace,

@@ -41,8 +41,11 @@ fn share_of_lit_bounces(scene: &Scene) -> f64 {
             continue;
         };
         bounces += 1;
-        let emission = scene.intersect(&next).and_then(|hit| hit.emission().map(|light| light.radiance));
-        lit += u32::from(emission.is_some_and(|radiance| !radiance.is_black()));
+        let found = match scene.intersect(&next) {
+            Some(hit) => hit.emission().map(|light| light.radiance),
+            None => scene.environment().map(|environment| environment.radiance(next.direction)),
+        };
+        lit += u32::from(found.is_some_and(|radiance| !radiance.is_black()));
     }
     f64::from(lit) / f64::from(bounces.max(1))
 }

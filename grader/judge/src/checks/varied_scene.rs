@@ -77,6 +77,10 @@ fn varied(scene: &SceneDescription, random: &mut Sampler) -> SceneDescription {
             LightDescription::Triangle { radiance, .. } => *radiance *= dim(0.5),
         }
     }
+    if let Some(environment) = &mut varied.environment {
+        let tint = dim(0.5);
+        environment.texels.iter_mut().for_each(|texel| *texel *= tint);
+    }
     let axis = Vec3::new(between(-1.0, 1.0), between(-1.0, 1.0), between(0.1, 1.0)).normalize();
     Transform { rotation: Quat::from_axis_angle(axis, between(0.0, 3.0)), scale: 1.0, offset: Vec3::ZERO }
         .apply(&varied)

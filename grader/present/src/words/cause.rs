@@ -182,6 +182,9 @@ fn what_is_right(check: &CheckResult) -> String {
         }
         CheckKind::RayBudget => return format!("no path traces too many rays (`{technique}`)"),
         CheckKind::PathLength => return format!("paths reach the maximum length (`{technique}`)"),
+        CheckKind::Sampling => {
+            return format!("directions of environments are sampled correctly (`{technique}`)");
+        }
         CheckKind::Stability => return format!("extreme scenes are rendered correctly (`{technique}`)"),
         CheckKind::HiddenVariants => return format!("random scenes are rendered correctly (`{technique}`)"),
         CheckKind::Efficiency => "the variance",

@@ -10,7 +10,7 @@ use verdict::check::{
 use super::command::{replay_command, replay_of_finding};
 use super::fact::fact;
 use super::number::{count, list, percent, trimmed};
-use super::{fault, means, numerics, skipped, stability, weights};
+use super::{fault, means, numerics, sampling, skipped, stability, weights};
 
 /// Why a check ended as it did: one sentence without a full stop.
 pub fn explanation(check: &CheckResult) -> String {
@@ -80,6 +80,7 @@ fn of_evidence(evidence: &Evidence, check: &CheckResult) -> String {
         Evidence::PathLength(paths) => path_length(paths),
         Evidence::RayBudget(rays) if check.id.technique == Technique::Bsdf => long_paths(rays),
         Evidence::RayBudget(rays) => ray_budget(rays),
+        Evidence::Sampling(test) => sampling::sampling(test),
         Evidence::Stability(test) => stability::stability(test, verdict),
     }
 }
@@ -328,6 +329,9 @@ pub fn about(kind: CheckKind) -> &'static str {
         }
         CheckKind::PathLength => "counts the bounces of paths in a closed room of mirrors",
         CheckKind::RayBudget => "counts the rays traced for each path",
+        CheckKind::Sampling => {
+            "compares sampled directions of an environment with their density, and that with the sheet's, in maps made for it"
+        }
         CheckKind::Stability => "tests very small and very large scenes, radiances and densities",
         CheckKind::VariedScene => {
             "compares means with the solution's in a variation of the scene that depends on the seed"

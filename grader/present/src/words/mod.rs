@@ -13,6 +13,7 @@ mod means;
 mod next;
 mod number;
 mod points;
+mod sampling;
 mod sandbox;
 mod skipped;
 mod stability;

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::means::{FurnaceTest, MeanTest, SLIGHT};
-use super::{CheckKind, StabilityTest, WeightTest};
+use super::{CheckKind, SamplingTest, StabilityTest, WeightTest};
 use crate::audit::{Fact, Unit};
 
 /// The measurements of one check: one variant per kind.
@@ -24,6 +24,7 @@ pub enum Evidence {
     PathLength(PathLengths),
     Randomness(RandomNumbers),
     RayBudget(RayCounts),
+    Sampling(SamplingTest),
     Stability(StabilityTest),
     VariedScene(MeanTest),
     WhiteFurnace(FurnaceTest),
@@ -44,6 +45,7 @@ impl Evidence {
             Self::PathLength(_) => CheckKind::PathLength,
             Self::Randomness(_) => CheckKind::Randomness,
             Self::RayBudget(_) => CheckKind::RayBudget,
+            Self::Sampling(_) => CheckKind::Sampling,
             Self::Stability(_) => CheckKind::Stability,
             Self::VariedScene(_) => CheckKind::VariedScene,
             Self::WhiteFurnace(_) => CheckKind::WhiteFurnace,
@@ -64,6 +66,7 @@ impl Evidence {
             | Self::PathLength(_)
             | Self::Randomness(_)
             | Self::RayBudget(_)
+            | Self::Sampling(_)
             | Self::Stability(_) => None,
         }
     }

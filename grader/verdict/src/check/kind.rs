@@ -30,6 +30,8 @@ pub enum CheckKind {
     Randomness,
     /// Rays per path, on paths of up to `max_bounces` bounces.
     RayBudget,
+    /// Sampled directions of an environment against their density, and that against the one of the sheet.
+    Sampling,
     /// Scenes and densities near the limits of single precision.
     Stability,
     /// Means in a random variation of a known scene, against the solution.
@@ -40,7 +42,7 @@ pub enum CheckKind {
 
 impl CheckKind {
     /// All kinds, by name.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::ClosedForm,
         Self::Efficiency,
         Self::Facts,
@@ -52,6 +54,7 @@ impl CheckKind {
         Self::PathLength,
         Self::Randomness,
         Self::RayBudget,
+        Self::Sampling,
         Self::Stability,
         Self::VariedScene,
         Self::WhiteFurnace,
@@ -71,6 +74,7 @@ impl CheckKind {
             Self::PathLength => "path-length",
             Self::Randomness => "randomness",
             Self::RayBudget => "ray-budget",
+            Self::Sampling => "sampling",
             Self::Stability => "stability",
             Self::VariedScene => "varied-scene",
             Self::WhiteFurnace => "white-furnace",
@@ -99,6 +103,7 @@ impl CheckKind {
                 | Self::MisWeights
                 | Self::PathLength
                 | Self::RayBudget
+                | Self::Sampling
                 | Self::Stability
         )
     }

@@ -6,6 +6,7 @@ use std::path::Path;
 use arty::integrator::Technique;
 use serde::Deserialize;
 
+use crate::check::CheckKind;
 use crate::error::{Error, Result};
 use crate::report::Step;
 
@@ -148,6 +149,14 @@ impl Rubric {
                         check.id()
                     ));
                 }
+                if check.check == CheckKind::Sampling
+                    && self.submission.contract != Contract::EnvironmentSampler
+                {
+                    return Err(format!(
+                        "task {id}, {}: it needs the contract `environment-sampler`",
+                        check.id()
+                    ));
+                }
                 check.validate().map_err(|message| format!("task {id}, {}: {message}", check.id()))?;
             }
             if let Some(twice) = task.checks.iter().enumerate().find_map(|(index, check)| {
@@ -201,7 +210,6 @@ impl Rubric {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::check::CheckKind;
 
     fn load(text: &str) -> std::result::Result<Rubric, String> {
         let folder = tempfile::tempdir().expect("a temporary folder");
@@ -239,6 +247,10 @@ mod tests {
                     "checks: [{check: mean-bias, scene: a, technique: mis, max_bounces: 3, required: true}]",
                 ),
                 "not one of `techniques`",
+            ),
+            (
+                task("checks: [{check: sampling, technique: nee, max_bounces: 1, required: true}]"),
+                "needs the contract `environment-sampler`",
             ),
             ("tasks: [".to_owned(), "rubric.yml:"),
         ] {

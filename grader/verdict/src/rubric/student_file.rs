@@ -22,6 +22,9 @@ pub struct StudentFile {
 pub enum Contract {
     /// `PathTracer`, an `Integrator` with `new(Settings)`.
     PathTracer,
+    /// `EnvironmentSampler`, a `SampleDirections` with `new(&Environment)`, and `PathTracer`, an `Integrator` with
+    /// `new(Settings, &Scene)`.
+    EnvironmentSampler,
 }
 
 impl Contract {
@@ -29,6 +32,7 @@ impl Contract {
     pub fn type_name(self) -> &'static str {
         match self {
             Self::PathTracer => "PathTracer",
+            Self::EnvironmentSampler => "EnvironmentSampler",
         }
     }
 }

@@ -213,6 +213,9 @@ pub(super) fn lights_apart(scene: &SceneDescription) -> Option<[SceneDescription
             let mut some = scene.clone();
             let materials = some.materials.iter_mut().filter(|material| emits(material));
             let emissions = materials.map(|material| &mut material.emission);
+            // The environment is one of the lights, too.
+            let sky = some.environment.iter_mut().filter(|_| part == 0).flat_map(|it| &mut it.texels);
+            sky.for_each(|texel| *texel = Rgb::BLACK);
             let all = some.lights.iter_mut().map(emitted).chain(emissions);
             all.enumerate().filter(|(index, _)| index % 2 == part).for_each(|(_, light)| *light = Rgb::BLACK);
             some
