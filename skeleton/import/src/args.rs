@@ -18,8 +18,8 @@ pub struct Args {
     #[arg(value_name = "FILE.glb")]
     pub source: PathBuf,
 
-    /// The scene file to write; meshes, materials and textures are written beside it [default: `<file>.yml` in the
-    /// current folder]
+    /// The scene file to write; meshes, materials and textures are written beside it; without it, `FILE.yml` in the
+    /// current folder
     #[arg(short, long, value_name = "SCENE.yml")]
     pub output: Option<PathBuf>,
 
