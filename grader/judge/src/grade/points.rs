@@ -149,6 +149,9 @@ mod tests {
         let yaml = "
 assignment: a
 title: a
+submission: { file: a/x.rs, contract: path-tracer }
+techniques: [bsdf, nee, mis]
+reference_technique: mis
 tasks:
   - id: one
     title: one
