@@ -103,13 +103,17 @@ fn the_checkout_is_that_of_the_current_folder_or_the_one_that_is_named() {
         std::fs::create_dir_all(other.join(name)).expect("it can be made");
     }
     std::fs::write(other.join("skeleton/Cargo.toml"), "").expect("it can be written");
-    // There is no such scene in it.
-    for (stands_in, named) in [(other.clone(), None), (folder.path().to_owned(), Some(&other))] {
-        let option = named.map(|named| format!("--workspace={}", named.display()));
-        let arguments: Vec<&str> = ["plan", "point_plane"].into_iter().chain(option.as_deref()).collect();
-        let output = grader(&stands_in, &arguments);
+    // There is no such scene in it. Standing in it, one has to say which checkout is meant.
+    let option = format!("--workspace={}", other.display());
+    for (stands_in, named, says) in [
+        (other.as_path(), None, option.as_str()),
+        (other.as_path(), Some(option.as_str()), "other/scenes"),
+        (folder.path(), Some(option.as_str()), "other/scenes"),
+    ] {
+        let arguments: Vec<&str> = ["plan", "point_plane"].into_iter().chain(named).collect();
+        let output = grader(stands_in, &arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
-        assert!(stderr(&output).contains("other/scenes"), "{arguments:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(says), "{arguments:?}: {}", stderr(&output));
     }
     let known = grader(folder.path(), &["plan", "point_plane"]);
     assert_eq!(known.status.code(), Some(0), "{}", stderr(&known));
@@ -213,7 +217,7 @@ fn a_grade_says_what_was_odd_and_what_being_late_costs() {
     assert_eq!(graded.status.code(), Some(0), "{}", stderr(&graded));
     assert!(stderr(&graded).contains("note: line ends of another system"), "{}", stderr(&graded));
     let said = String::from_utf8_lossy(&graded.stdout).into_owned();
-    assert!(said.contains("× 0.8; 16 of 20 points count"), "{said}");
+    assert!(said.contains("× 0.8; 24 of 30 points count"), "{said}");
 }
 
 /// Runs the grader in bash, where `"$0"` is the program and `"$1"` the student file.

@@ -243,7 +243,7 @@ fn the_irradiance_of_spherical_harmonics_has_their_factors() {
 fn a_convex_body_in_a_constant_environment_reflects_its_albedo() {
     let map = map_of(1, 1, |_, _| Rgb::gray(2.0));
     for (material, exact, resolution) in
-        [(diffuse(0.7), 1.4, 1e-2), (mirror(0.5), 1.0, 1e-3), (glass(1.5), 2.0, 1e-2)]
+        [(diffuse(0.7), 1.4, 1e-2), (mirror(0.5), 1.0, 2e-3), (glass(1.5), 2.0, 1e-2)]
     {
         let mut scene = empty();
         add(&mut scene, &icosphere(4.0 * Vec3::NEG_Z, 1.5, 3, true), material);
