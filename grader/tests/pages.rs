@@ -17,6 +17,7 @@ title: A few cheap checks
 submission: { file: skeleton/src/algorithms/render_pt.rs, contract: path-tracer, solution: solution/src/algorithms/render_pt.rs }
 techniques: [bsdf, nee, mis]
 reference_technique: mis
+pictures: [veach_mis]
 tasks:
   - id: '1'
     title: Light
