@@ -111,6 +111,8 @@ fn every_kind_of_check_fails_on_a_mistake_and_passes_correct_programs() {
         ("randomness/cornell_box/nee/8", "same-numbers-for-neighbours"),
         ("ray-budget/scripted/nee/3", "all-lights-with-a-shadow-ray-each"),
         ("stability/scripted/mis/3", "samples-clamped-at-ten"),
+        ("varied-scene/cornell_box_point/nee/1", "receiver-cosine-missing"),
+        ("varied-scene/light_behind_wall/nee/8", "nee-adds-every-hit"),
         ("white-furnace/furnace_diffuse/mis/3", "mis-hit-unweighted"),
         ("white-furnace/furnace_mirror/nee/4", "nee-mirrored-light-missing"),
     ] {
@@ -122,6 +124,8 @@ fn every_kind_of_check_fails_on_a_mistake_and_passes_correct_programs() {
             assert_eq!(verdict(variant, check), expected, "{id}, {check}");
         }
     }
-    let kinds: BTreeSet<&str> = CheckKind::ALL.iter().map(|kind| kind.name()).collect();
+    // Its own tests show how `sampling` fails: no submission of this assignment has a sampler.
+    let kinds = CheckKind::ALL.into_iter().filter(|&kind| kind != CheckKind::Sampling);
+    let kinds: BTreeSet<&str> = kinds.map(CheckKind::name).collect();
     assert_eq!(judged, kinds, "a kind of check that is never seen to fail");
 }

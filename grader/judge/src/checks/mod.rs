@@ -4,7 +4,7 @@
 //! [`CheckKind`] and its measurements in [`Evidence`](verdict::check::Evidence). Plan,
 //! rubric, grade and diagnosis use the registry.
 
-mod against_solution;
+mod against_oracle;
 mod check;
 mod closed_form;
 mod context;

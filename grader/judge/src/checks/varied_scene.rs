@@ -14,7 +14,7 @@ use verdict::rubric::{CheckSpec, EmissionOnHit};
 
 use super::metamorphic::Transform;
 use super::{
-    Check, CheckOutcome, GradeContext, JobError, Observation, SceneWithReference, against_solution, means,
+    Check, CheckOutcome, GradeContext, JobError, Observation, SceneWithReference, against_oracle, means,
 };
 
 pub(super) struct VariedScene;
@@ -32,7 +32,7 @@ impl Check for VariedScene {
     fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<CheckOutcome, JobError> {
         let seed = context.seed_of(spec);
         let scene = varied(&context.scene(spec).description, &mut Sampler::new(seed, (0, 0), 0));
-        let (judgement, anomalies) = against_solution::judge(context, spec, &scene, seed, 1)?;
+        let (judgement, anomalies) = against_oracle::judge(context, spec, &scene, seed, 1)?;
         let test = means::mean_test(&judgement, spec.tolerance);
         let outcome = means::conclude(&judgement, Evidence::VariedScene(test), judgement.samples);
         Ok(outcome.with(anomalies.numerics(None)))

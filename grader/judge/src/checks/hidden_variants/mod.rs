@@ -9,7 +9,7 @@ use arty::sampler::{Sampler, batch_seed};
 use verdict::check::{CheckKind, Evidence, VariantTest, Verdict};
 use verdict::rubric::CheckSpec;
 
-use super::{Check, CheckOutcome, GradeContext, JobError, Observation, against_solution, means};
+use super::{Check, CheckOutcome, GradeContext, JobError, Observation, against_oracle, means};
 
 /// Number of scenes per check.
 const SCENES: u32 = 2;
@@ -47,7 +47,7 @@ impl Check for HiddenVariants {
 fn judge(context: &GradeContext<'_>, spec: &CheckSpec, number: u32) -> Result<CheckOutcome, JobError> {
     let seed = batch_seed(context.seed_of(spec), u64::from(number));
     let scene = draw::scene(&mut Sampler::new(seed, (0, 0), 0));
-    let (judgement, anomalies) = against_solution::judge(context, spec, &scene, seed, SCENES)?;
+    let (judgement, anomalies) = against_oracle::judge(context, spec, &scene, seed, SCENES)?;
     let test = means::mean_test(&judgement, spec.tolerance);
     let evidence = VariantTest { scene: number + 1, scenes: SCENES, test };
     let outcome = means::conclude(&judgement, Evidence::HiddenVariants(evidence), judgement.samples);
