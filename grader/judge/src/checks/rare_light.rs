@@ -30,20 +30,20 @@ pub(super) fn require(scene: &Scene, spec: &CheckSpec) -> Result<(), WhyNot> {
 }
 
 /// The share of BSDF samples at what the camera sees that hit a light.
-fn share_of_lit_bounces(scene: &Scene) -> f64 {
-    let camera = scene.camera(SIZE, SIZE);
+fn share_of_lit_bounces(place: &Scene) -> f64 {
+    let camera = place.camera(SIZE, SIZE);
     let (mut bounces, mut lit) = (0_u32, 0_u32);
     for (pixel, ray) in (0..SIZE * SIZE).flat_map(|pixel| (0..RAYS).map(move |ray| (pixel, ray))) {
         let (x, y) = (pixel % SIZE, pixel / SIZE);
         let mut sampler = Sampler::new(1, (x, y), ray);
-        let seen = scene.intersect(&camera.ray(x, y, sampler.next_2d()));
+        let seen = place.intersect(&camera.ray(x, y, sampler.next_2d()));
         let Some(next) = seen.and_then(|hit| Some(hit.spawn(hit.bsdf().sample(&mut sampler)?.wi))) else {
             continue;
         };
         bounces += 1;
-        let found = match scene.intersect(&next) {
+        let found = match place.intersect(&next) {
             Some(hit) => hit.emission().map(|light| light.radiance),
-            None => scene.environment().map(|environment| environment.radiance(next.direction)),
+            None => place.environment().map(|environment| environment.radiance(next.direction)),
         };
         lit += u32::from(found.is_some_and(|radiance| !radiance.is_black()));
     }
