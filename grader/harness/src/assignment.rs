@@ -13,7 +13,7 @@ use crate::workspace::Workspace;
 /// An assignment of a checkout: its folder and its rubric.
 #[derive(Clone, Debug)]
 pub struct Assignment {
-    /// Its name or folder, as given.
+    /// Name or folder of the assignment, as given on the command line.
     pub name: String,
     /// The paths of its files.
     pub folder: AssignmentFolder,

@@ -1,4 +1,4 @@
-//! What a submission defines.
+//! The functions through which the host uses a submission.
 
 use arty::environment::{Environment, SampleDirections};
 use arty::integrator::{Integrator, Settings};

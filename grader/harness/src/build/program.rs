@@ -2,7 +2,7 @@
 
 use verdict::rubric::{Contract, StudentFile};
 
-/// What all programs begin with.
+/// Source text at the beginning of every program: macros that keep prints out of the protocol.
 const PRELUDE: &str = include_str!("../../../host/program/prelude.rs");
 
 /// The fixed program around the submissions of an assignment.

@@ -14,7 +14,7 @@ pub(super) struct Techniques {
     pub(super) graded: Vec<Technique>,
     /// How to recognise those that are not begun.
     pub(super) not_begun: Vec<NotBegun>,
-    /// What to begin with.
+    /// Hint for a student who has not begun, from the rubric.
     pub(super) begin: String,
 }
 

@@ -1,4 +1,4 @@
-//! What the check `sampling` found.
+//! Sentences about the check `sampling`.
 
 use verdict::check::{SampledMap, SamplingFlaw, SamplingTest};
 
@@ -13,7 +13,7 @@ pub(super) fn sampling(test: &SamplingTest) -> String {
     format!("{}: in {} ({columns} × {rows} texels)", what_is_wrong(flaw, test), name(test.map))
 }
 
-/// What a map is.
+/// A map, as named in a sentence.
 fn name(map: SampledMap) -> &'static str {
     match map {
         SampledMap::Constant => "a constant map",

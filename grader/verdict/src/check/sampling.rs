@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub struct SamplingTest {
     /// The map that decided: the first that is wrong, else the last.
     pub map: SampledMap,
-    /// Its columns and rows.
+    /// Columns and rows of the map.
     pub size: [u32; 2],
     /// What is wrong; `None` if nothing is.
     pub flaw: Option<SamplingFlaw>,
@@ -18,7 +18,7 @@ pub struct SamplingTest {
     pub integral: Option<f64>,
     /// Relative variance of luminance / density over samples; `None` if it cannot be computed.
     pub variance: Option<f64>,
-    /// The same for uniform directions.
+    /// Relative variance of luminance / density with uniform directions; `None` if it cannot be computed.
     pub variance_of_uniform: Option<f64>,
 }
 
@@ -26,7 +26,7 @@ pub struct SamplingTest {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SampledMap {
-    /// The same radiance everywhere.
+    /// Constant radiance in all directions.
     Constant,
     /// One texel.
     OneTexel,

@@ -85,7 +85,7 @@ pub enum Deviation {
     },
     /// The program panics.
     Panic {
-        /// Its message.
+        /// Message of the panic.
         message: String,
     },
     /// A path returns a value that is not radiance.

@@ -26,7 +26,7 @@ pub struct Rubric {
     pub assignment: String,
     /// Title of the assignment.
     pub title: String,
-    /// What students hand in.
+    /// File that students hand in, and its contract.
     pub submission: StudentFile,
     /// Techniques that the program offers, in the order of pictures. The first is what it had before: the baseline.
     pub techniques: Vec<Technique>,
@@ -59,7 +59,7 @@ pub struct NotBegun {
     pub technique: Technique,
     /// Its name in a source.
     pub name: String,
-    /// What to begin with.
+    /// Hint for a student who has not begun.
     #[serde(default)]
     pub hint: String,
 }

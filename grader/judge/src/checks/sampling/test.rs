@@ -25,7 +25,7 @@ const PROBABILITY_ERROR: f64 = 1e-6;
 /// Error of the integral.
 const INTEGRAL_ERROR: f64 = 2e-3;
 
-/// What was measured with one map.
+/// Measurements of one sampler with one map.
 pub(super) struct Measured {
     pub(super) flaw: Option<SamplingFlaw>,
     pub(super) integral: f64,
