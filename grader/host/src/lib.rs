@@ -33,4 +33,4 @@ pub use arty::probe::record_print as printed;
 #[cfg(feature = "serve")]
 pub use serve::serve;
 #[cfg(feature = "serve")]
-pub use submission::Submission;
+pub use submission::{NewDirections, Submission};
