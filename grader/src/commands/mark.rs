@@ -99,22 +99,32 @@ fn mark(student: &str, explanation: &str, entry: &Entry) -> Mark {
     }
 }
 
-/// Records marks of rows of a class: all of them, or none if one is wrong.
+/// Records marks of rows of a class: all of them, or none if one is wrong or contradicts another.
 fn mark_in_class(out: &Path, rows: &[Row], entries: &[Entry]) -> Result<ExitCode> {
-    let mut marks = Vec::new();
+    let mut marks: Vec<Mark> = Vec::new();
+    let mut told = Vec::new();
     for entry in entries {
-        let found = rows_of(rows, &entry.student);
-        let found = found.map_err(|message| Error::Input(format!("{}{message}", entry.at)))?;
-        for row in found.into_iter().map(|index| &rows[index]) {
+        let (task, points) = (&entry.task, entry.points);
+        let blame = |message: String| Error::Input(format!("{}{message}", entry.at));
+        for row in rows_of(rows, &entry.student).map_err(blame)?.into_iter().map(|index| &rows[index]) {
+            let earlier = marks.iter().find(|mark| mark.student == row.key && mark.task == *task);
+            if let Some(other) =
+                earlier.filter(|other| other.points != points || other.comment != entry.comment)
+            {
+                return Err(blame(format!(
+                    "`{}` has another mark in task {task}, {} points, on an earlier line: keep one of the two",
+                    row.key, other.points
+                )));
+            }
             marks.push(mark(&row.key, &row.explanation, entry));
-            let (task, points) = (&entry.task, entry.points);
             let what = match row.explanations.as_slice() {
                 [] => "no explanation was handed in".to_owned(),
                 names => names.join(", "),
             };
-            note(format_args!("{}, task {task}: {points} points ({})", harmless(&row.key), harmless(&what)));
+            told.push(format!("{}, task {task}: {points} points ({})", harmless(&row.key), harmless(&what)));
         }
     }
+    told.iter().for_each(note);
     let marks = Marks::add(out, marks)?;
     note(format_args!("stored in {}; `grader class … --resume` updates the tables", marks.path().display()));
     Ok(ExitCode::SUCCESS)

@@ -55,6 +55,15 @@ fn marks_of_a_table_are_recorded_all_or_none() {
     let output = course.other(&["mark", "--from=nobody.csv", "--out=out"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("nobody.csv:3: `zoe`"), "{}", stderr(&output));
+    for (last, expected) in
+        [("Ann Lee,2,3,", "4 points"), ("Ann Lee,2,4,Too short", "4 points"), ("zoe,2,3,", "`zoe`")]
+    {
+        course.write("twice.csv", &format!("student,task,points,comment\nann,2,4,\nbob,2,3,\n{last}\n"));
+        let output = course.other(&["mark", "--from=twice.csv", "--out=out"]);
+        let told = stderr(&output);
+        assert!(output.status.code() == Some(2) && told.contains("twice.csv:4: "), "{told}");
+        assert!(told.contains(expected) && told.lines().count() == 1, "nothing else is told: {told}");
+    }
     assert!(!course.path("out/marks.json").exists(), "nothing is recorded");
     course.write("marks.csv", "student;2;comment\nann;4,5;Well said\nBob Ray;;\ncem;1;\n");
     let output = course.other(&["mark", "--from=marks.csv", "--out=out"]);
