@@ -35,6 +35,7 @@ use expected::Expected;
 /// On Linux it is killed when the thread that started it ends.
 pub struct HostProcess {
     child: Child,
+    watch: Watch,
     requests: Sender<Vec<u8>>,
     /// Sends the reader the limits of the next answer; no answer is read before it is expected.
     expected: Sender<Expected>,
@@ -105,6 +106,7 @@ impl HostProcess {
         let (expected, responses) = receive(child.stdout.take().expect("stdout is piped"));
         let job_time = limits.job_time;
         let mut process = Self {
+            watch: Watch::start(&child),
             child,
             requests,
             expected,
@@ -293,12 +295,12 @@ impl HostProcess {
     /// Waits for the next message until the process has used `time` on processors, or has waited too long itself. Also
     /// returns the processor time that it has used.
     fn answer(&mut self, time: Duration) -> (Answer<Response>, Duration) {
-        let watch = Watch::start(&self.child);
+        self.watch.next(&self.child);
         let earlier = *self.waited.lock().unwrap_or_else(PoisonError::into_inner);
         let may_wait = (self.waiting / 2).min(self.waiting.saturating_sub(earlier));
         loop {
             let said = self.responses.recv_timeout(TICK);
-            let spent = watch.spent(&self.child);
+            let spent = self.watch.spent(&self.child);
             let fault = match said {
                 Err(RecvTimeoutError::Timeout) if spent.computed >= time => {
                     Fault::Timeout(time.as_secs_f64())
@@ -322,11 +324,9 @@ impl HostProcess {
         }
     }
 
-    /// Adds to the time for which the submission has waited, unless it is too short to tell from that of the pipe.
+    /// Adds to the time for which the submission has waited.
     fn count_waiting(&self, waited: Duration) {
-        if waited > TICK {
-            *self.waited.lock().unwrap_or_else(PoisonError::into_inner) += waited;
-        }
+        *self.waited.lock().unwrap_or_else(PoisonError::into_inner) += waited;
     }
 
     fn said(

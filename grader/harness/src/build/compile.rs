@@ -239,7 +239,7 @@ fn compile_once(
 /// Runs rustc; `None` if it had to be ended.
 fn run_in_time(rustc: &mut Command, time: Duration) -> std::io::Result<Option<ExitStatus>> {
     let mut rustc = rustc.spawn()?;
-    let watch = Watch::start(&rustc);
+    let mut watch = Watch::start(&rustc);
     loop {
         if let Some(status) = rustc.try_wait()? {
             return Ok(Some(status));

@@ -2,11 +2,12 @@
 
 use std::path::Path;
 use std::process::{Child, Command};
+use std::time::Duration;
 
 use verdict::sandbox::Layers;
 
 use super::process::Profile;
-use super::{Limits, Usage};
+use super::Limits;
 use verdict::error::Result;
 
 /// Sandbox support of this machine: none.
@@ -34,8 +35,13 @@ pub(super) fn confine(_: &mut Command, _: Profile<'_>, _: &Limits) -> Result<Lay
     Ok(Layers::default())
 }
 
-/// What a process has used of the processors: unknown here.
-pub(crate) fn usage(_: &Child) -> Option<Usage> {
+/// Processor time of a process: unknown here.
+pub(crate) fn processor_time(_: &Child) -> Option<Duration> {
+    None
+}
+
+/// For how long its threads were ready to run and did not: unknown here.
+pub(crate) fn delay(_: &Child) -> Option<Duration> {
     None
 }
 

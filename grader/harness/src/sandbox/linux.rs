@@ -26,7 +26,7 @@ use user::{Switch, User, switch_user};
 use verdict::error::{Error, Result};
 
 pub(crate) use account::Account;
-pub(crate) use clock::usage;
+pub(crate) use clock::{delay, processor_time};
 pub(crate) use loading::confirmed;
 pub(crate) use memory::out_of_memory_kills;
 

@@ -31,4 +31,4 @@ pub(crate) use process::{Profile, blame_machine, end, prepare};
 pub use system::Machine;
 pub(crate) use system::{Account, confirmed, out_of_memory_kills};
 pub use verdict::sandbox::{Layers, Level};
-pub(crate) use watch::{BUSY, Usage, Watch};
+pub(crate) use watch::{BUSY, Watch};

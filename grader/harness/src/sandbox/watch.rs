@@ -9,21 +9,21 @@ use super::system;
 /// gets a processor reaches it.
 pub(crate) const BUSY: u32 = 20;
 
-/// What a process has used of the processors.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Usage {
-    /// Processor time over all threads.
-    pub(crate) computed: Duration,
-    /// Time for which threads were ready to run while other processes had the processors, over all threads; `None` where
-    /// the system does not tell.
-    pub(crate) delayed: Option<Duration>,
-}
+/// Shorter waiting cannot be told from that of the pipe and of its reader.
+const SHORT: Duration = Duration::from_millis(50);
 
-/// Observes a process from a moment on.
+/// Observes how a process spends its time, job by job.
 #[derive(Debug)]
 pub(crate) struct Watch {
+    /// Begin of the job.
     start: Instant,
-    before: Option<Usage>,
+    /// Processor time before the job; `None` where the system does not tell.
+    before: Option<Duration>,
+    /// Delay before the job, and as far as it is known by now.
+    ///
+    /// It is looked up for jobs with waiting only, as the kernel's answer costs more than many a job; delays of others
+    /// count for the next such job.
+    delays: [Duration; 2],
 }
 
 /// How a process has spent its time.
@@ -38,27 +38,36 @@ pub(crate) struct Spent {
 }
 
 impl Watch {
-    /// Starts to observe a process.
+    /// Starts to observe a process that has just been started.
     pub(crate) fn start(child: &Child) -> Self {
-        Self { start: Instant::now(), before: system::usage(child) }
+        Self { start: Instant::now(), before: system::processor_time(child), delays: [Duration::ZERO; 2] }
     }
 
-    /// How the process has spent its time since the start.
-    pub(crate) fn spent(&self, child: &Child) -> Spent {
+    /// Begins the next job.
+    pub(crate) fn next(&mut self, child: &Child) {
+        *self = Self { delays: [self.delays[1]; 2], ..Self::start(child) };
+    }
+
+    /// How the process has spent its time since the start of its job.
+    pub(crate) fn spent(&mut self, child: &Child) -> Spent {
         let wall = self.start.elapsed();
-        match self.before.zip(system::usage(child)) {
-            Some((before, now)) => Spent::between(before, now, wall),
-            None => Spent { computed: wall, waited: Duration::ZERO, wall },
-        }
+        let Some((before, now)) = self.before.zip(system::processor_time(child)) else {
+            return Spent { computed: wall, waited: Duration::ZERO, wall };
+        };
+        let computed = now.saturating_sub(before);
+        let waited = self.waited(wall.saturating_sub(computed), || system::delay(child));
+        Spent { computed, waited, wall }
     }
-}
 
-impl Spent {
-    fn between(before: Usage, now: Usage, wall: Duration) -> Self {
-        let computed = now.computed.saturating_sub(before.computed);
-        let delayed = before.delayed.zip(now.delayed).map(|(before, now)| now.saturating_sub(before));
-        let waited = wall.saturating_sub(computed + delayed.unwrap_or_default());
-        Self { computed, waited, wall }
+    /// Waiting time within `rest`, the time in which the process did not compute. `delay` tells for how long its threads
+    /// have been ready to run while others had the processors, over all threads since it was started; `None` where the
+    /// system does not tell.
+    fn waited(&mut self, rest: Duration, delay: impl FnOnce() -> Option<Duration>) -> Duration {
+        if rest <= SHORT {
+            return Duration::ZERO;
+        }
+        self.delays[1] = delay().unwrap_or(self.delays[1]);
+        rest.saturating_sub(self.delays[1].saturating_sub(self.delays[0]))
     }
 }
 
@@ -66,20 +75,27 @@ impl Spent {
 mod tests {
     use super::*;
 
-    fn usage(computed: u64, delayed: Option<u64>) -> Usage {
-        Usage { computed: Duration::from_secs(computed), delayed: delayed.map(Duration::from_secs) }
+    #[test]
+    fn time_in_which_others_had_the_processors_is_no_waiting() {
+        let before = Duration::from_secs(2);
+        let waited = |rest: u64, delayed: u64| {
+            let mut watch = Watch { start: Instant::now(), before: None, delays: [before; 2] };
+            let delay = || Some(before + Duration::from_secs(delayed));
+            watch.waited(Duration::from_secs(rest), delay).as_secs()
+        };
+        assert_eq!((waited(10, 0), waited(9, 3), waited(9, 9), waited(4, 9)), (10, 6, 0, 0));
     }
 
     #[test]
-    fn time_in_which_others_had_the_processors_is_no_waiting() {
-        let spent = |computed: u64, delayed: u64| {
-            Spent::between(usage(1, Some(2)), usage(1 + computed, Some(2 + delayed)), Duration::from_secs(10))
-        };
-        let waited = |computed: u64, delayed: u64| spent(computed, delayed).waited.as_secs();
-        assert_eq!((waited(0, 0), waited(4, 0), waited(1, 9), waited(20, 0)), (10, 6, 0, 0));
-        assert_eq!(spent(20, 0).computed.as_secs(), 20);
-        // Where delays are not known, a process that does not compute waits.
-        let unknown = Spent::between(usage(0, None), usage(1, None), Duration::from_secs(10));
-        assert_eq!(unknown.waited.as_secs(), 9);
+    fn where_delays_are_unknown_a_process_that_does_not_compute_waits() {
+        let mut watch = Watch { start: Instant::now(), before: None, delays: [Duration::ZERO; 2] };
+        assert_eq!(watch.waited(Duration::from_secs(9), || None).as_secs(), 9);
+    }
+
+    #[test]
+    fn delays_are_looked_up_for_long_waiting_only() {
+        let mut watch = Watch { start: Instant::now(), before: None, delays: [Duration::ZERO; 2] };
+        let looked_up = || unreachable!("the kernel was asked");
+        assert_eq!(watch.waited(SHORT, looked_up), Duration::ZERO);
     }
 }

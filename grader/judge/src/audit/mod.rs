@@ -11,6 +11,7 @@ mod contributions;
 mod decisions;
 mod facts;
 mod measure;
+mod once;
 mod weights;
 mod words;
 
@@ -25,6 +26,8 @@ use verdict::check::Fault;
 use verdict::error::Result;
 
 use measure::Prober;
+
+pub(crate) use once::AuditOnce;
 
 /// Time limit of one job, which takes a few milliseconds.
 const JOB_TIME: Duration = Duration::from_secs(5);
@@ -43,43 +46,50 @@ type Group = Box<dyn Fn(&mut Prober<'_>) -> std::result::Result<Vec<Fact>, JobEr
 /// # Errors
 /// If the grader itself fails. Faults of the submission are part of the result.
 pub fn audit(program: &SubmissionProgram, seed: u64) -> Result<Audit> {
-    let start = Instant::now();
-    let mut audit = Audit::default();
-    let mut process = HostProcess::start(program, 1)?;
-    for (_, group) in groups() {
-        let mut prober = Prober { process: &mut process, seed: seed as u32, time: JOB_TIME };
-        match group(&mut prober) {
-            Ok(facts) => audit.facts.extend(facts),
-            Err(JobError::Harness(error)) => return Err(error),
-            Err(JobError::Submission(fault)) => {
-                let ends = matches!(fault, Fault::Timeout(_) | Fault::TooSlow(_) | Fault::Crash(_));
-                audit.fault.get_or_insert(fault);
-                if ends {
-                    break;
-                }
-            }
-        }
-    }
-    sort(&mut audit.facts);
-    audit.seconds = start.elapsed().as_secs_f64();
-    Ok(audit)
+    AuditOnce::new(program, seed).all()
+}
+
+/// The facts about one technique.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct TechniqueFacts {
+    /// The facts, with the number of their group.
+    pub(crate) facts: Vec<(usize, Fact)>,
+    /// What kept facts from being measured; `None` if nothing did.
+    pub(crate) fault: Option<Fault>,
+    /// True if the fault ended the submission, so that other facts will not be measured either.
+    ended: bool,
+    /// Wall time in seconds.
+    seconds: f64,
 }
 
 /// Measures the facts about one technique.
 ///
 /// # Errors
-/// If the submission gives no valid answer, or the grader itself fails.
+/// If the grader itself fails. Faults of the submission are part of the result.
 pub(crate) fn of_technique(
-    process: &mut HostProcess,
+    program: &SubmissionProgram,
     technique: Technique,
     seed: u64,
-) -> std::result::Result<Vec<Fact>, JobError> {
-    let mut facts = Vec::new();
-    for (_, group) in groups().into_iter().filter(|(of, _)| *of == technique) {
-        facts.extend(group(&mut Prober { process: &mut *process, seed: seed as u32, time: JOB_TIME })?);
+) -> Result<TechniqueFacts> {
+    let start = Instant::now();
+    let mut result = TechniqueFacts::default();
+    let mut process = HostProcess::start(program, 1)?.within(program.limits.job_time);
+    for (number, (_, group)) in groups().into_iter().enumerate().filter(|(_, (of, _))| *of == technique) {
+        let mut prober = Prober { process: &mut process, seed: seed as u32, time: JOB_TIME };
+        match group(&mut prober) {
+            Ok(facts) => result.facts.extend(facts.into_iter().map(|fact| (number, fact))),
+            Err(JobError::Harness(error)) => return Err(error),
+            Err(JobError::Submission(fault)) => {
+                result.ended = matches!(fault, Fault::Timeout(_) | Fault::TooSlow(_) | Fault::Crash(_));
+                result.fault.get_or_insert(fault);
+                if result.ended {
+                    break;
+                }
+            }
+        }
     }
-    sort(&mut facts);
-    Ok(facts)
+    result.seconds = start.elapsed().as_secs_f64();
+    Ok(result)
 }
 
 /// Light from nowhere is part of every other result, so that it is read first.

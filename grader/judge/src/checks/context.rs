@@ -17,6 +17,7 @@ use verdict::rubric::{CheckSpec, EmissionOnHit, Task};
 use harness::job::JobError;
 
 use super::{CheckOutcome, of_kind};
+use crate::audit::AuditOnce;
 use crate::reference::{Oracle, Reference, SIZE};
 
 /// Number of looks of a check that cannot affect the points any more: a large error shows at the first look, and most
@@ -42,6 +43,8 @@ pub struct GradeContext<'a> {
     pub oracle: Option<&'a Oracle>,
     /// The scenes, by name.
     pub scenes: &'a BTreeMap<String, SceneWithReference>,
+    /// Facts about the submission.
+    pub(crate) audit: &'a AuditOnce<'a>,
     /// Seed of the grade.
     pub seed: u64,
     /// Screening level of one check.

@@ -15,7 +15,7 @@ use verdict::check::{CheckKind, Evidence, FailedFacts, Reason};
 use verdict::rubric::{CheckSpec, EmissionOnHit};
 
 use super::{Check, CheckOutcome, GradeContext, JobError, Observation};
-use crate::audit;
+use crate::audit::{self, TechniqueFacts};
 
 pub(super) struct Facts;
 
@@ -38,18 +38,18 @@ impl Check for Facts {
     }
 
     fn run(&self, context: &GradeContext<'_>, spec: &CheckSpec) -> Result<CheckOutcome, JobError> {
-        let mut process = context.start()?;
-        let seed = context.seed_of(spec);
-        let mut failed = |seed| -> Result<(Vec<Fact>, u32), JobError> {
-            let facts = audit::of_technique(&mut process, spec.technique, seed)?;
-            let decisive: Vec<Fact> = facts.into_iter().filter(|fact| decides(fact, spec)).collect();
-            let count = decisive.len() as u32;
-            Ok((decisive.into_iter().filter(Fact::fails).collect(), count))
+        let decisive = |measured: TechniqueFacts| match measured.fault {
+            Some(fault) => Err(JobError::Submission(fault)),
+            None => Ok(measured.facts.into_iter().map(|(_, fact)| fact).filter(|fact| decides(fact, spec))),
         };
-        let (mut facts, measured) = failed(seed)?;
+        let first: Vec<Fact> = decisive(context.audit.of(spec.technique)?)?.collect();
+        let measured = first.len() as u32;
+        let mut facts: Vec<Fact> = first.into_iter().filter(Fact::fails).collect();
         if !facts.is_empty() {
-            let (again, _) = failed(seed.wrapping_add(1))?;
-            facts.retain(|fact| again.iter().any(|other| other.id() == fact.id()));
+            let seed = context.seed_of(spec);
+            let again: Vec<Fact> =
+                decisive(audit::of_technique(context.program, spec.technique, seed)?)?.collect();
+            facts.retain(|fact| again.iter().any(|other| other.fails() && other.id() == fact.id()));
         }
         let reason = if facts.is_empty() { Reason::None } else { Reason::Bias };
         Ok(CheckOutcome::new(reason, Evidence::Facts(FailedFacts { failed: facts, measured }), 0))

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Instant;
 
-use crate::audit::audit;
+use crate::audit::AuditOnce;
 use crate::checks::{GradeContext, SceneWithReference};
 use crate::diagnosis::Catalogue;
 use crate::plan;
@@ -288,13 +288,10 @@ impl Grader {
         let host = HostProcess::start(program, self.options.threads)?.layers();
         results.sandbox = Sandbox::new(program.layers, host, std::mem::take(&mut results.sandbox.findings));
         trial::require(&results.sandbox, self.options.limits.min_level)?;
-        // A part of a grade answers a question of its own.
-        let needs_facts = self.rubric.checks().any(|(_, spec)| spec.technique != Technique::Bsdf);
-        if self.options.only.is_empty() && needs_facts {
-            results.audit = Some(audit(program, self.options.seed)?);
-        }
+        let audit = AuditOnce::new(program, self.options.seed);
         let context = GradeContext {
             program,
+            audit: &audit,
             oracle: self.oracle.as_ref(),
             scenes: &self.scenes,
             workspace: &self.workspace,
@@ -317,6 +314,11 @@ impl Grader {
             is_meaningful
         });
         results.checks = run::run(&context, &meaningful, on_check)?;
+        // A part of a grade answers a question of its own.
+        let needs_facts = self.rubric.checks().any(|(_, spec)| spec.technique != Technique::Bsdf);
+        if self.options.only.is_empty() && needs_facts {
+            results.audit = Some(audit.all()?);
+        }
         Ok(())
     }
 

@@ -3,16 +3,11 @@
 use std::process::Child;
 use std::time::Duration;
 
-use super::super::Usage;
-
-/// What a process has used of the processors; `None` if it is gone.
-pub(crate) fn usage(child: &Child) -> Option<Usage> {
-    Some(Usage { computed: processor_time(child)?, delayed: delay(child) })
-}
-
 /// Time for which the threads of a process were ready to run and did not: the second number of their `schedstat`, in
 /// nanoseconds. `None` if the kernel keeps none.
-fn delay(child: &Child) -> Option<Duration> {
+///
+/// An expensive question: the kernel has to set up `/proc` for the process, and to clear it when the process ends.
+pub(crate) fn delay(child: &Child) -> Option<Duration> {
     let threads = std::fs::read_dir(format!("/proc/{}/task", child.id())).ok()?.flatten();
     threads
         .map(|thread| {
@@ -23,7 +18,7 @@ fn delay(child: &Child) -> Option<Duration> {
 }
 
 /// Processor time of a process over all threads; `None` if it is gone.
-fn processor_time(child: &Child) -> Option<Duration> {
+pub(crate) fn processor_time(child: &Child) -> Option<Duration> {
     let pid = libc::pid_t::try_from(child.id()).ok()?;
     let mut clock = 0;
     // SAFETY: writes the number of a clock into a variable of its type.
