@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use verdict::sandbox::Layers;
 
-use super::process::Profile;
 use super::Limits;
+use super::process::Profile;
 use verdict::error::Result;
 
 /// Sandbox support of this machine: none.

@@ -27,7 +27,7 @@ const KINDS: [SurfaceKind; 5] =
     [SurfaceKind::Diffuse, SurfaceKind::Glossy, SurfaceKind::Mirror, SurfaceKind::Glass, SurfaceKind::Coated];
 
 /// Enough paths that roulette cannot end all of them, and sets of paths for as many words as time allows.
-const EFFORT: Effort = Effort { first: 16, set: 256, most: 120 };
+const EFFORT: Effort = Effort { first: 16, set: 128, most: 120 };
 
 /// The classes of paths, in the order in which failed ones should be read.
 const CLASSES: [Factor; 8] = [

@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-use arty::math::{Frame, Vec3};
+use arty::math::Vec3;
+use arty::ray::Ray;
 use arty::scene::Hit;
 
 /// Number of polar angles and of azimuths.
@@ -22,7 +23,8 @@ pub(super) struct Quadrature {
     coarse: Vec<Node>,
 }
 
-/// A direction around the normal, and its share of the integral over the projected hemisphere.
+/// A direction around the normal, on one side of the plane of incidence, and its share of the integral over the projected
+/// hemisphere, together with its mirror image.
 struct Node {
     direction: Vec3,
     weight: f64,
@@ -34,38 +36,47 @@ impl Quadrature {
         Self { fine: nodes(ANGLES), coarse: nodes((ANGLES.0 / 2, ANGLES.1 / 2)) }
     }
 
-    /// ∫ f cos θ dω at a hit point.
-    pub(super) fn albedo(&self, hit: &Hit<'_>) -> Albedo {
-        let (value, coarse) = (integrate(hit, &self.fine), integrate(hit, &self.coarse));
+    /// ∫ f cos θ dω where a ray hits an isotropic surface.
+    pub(super) fn albedo(&self, ray: &Ray, hit: &Hit<'_>) -> Albedo {
+        let (value, coarse) = (integrate(ray, hit, &self.fine), integrate(ray, hit, &self.coarse));
         let error = (0..3).map(|channel| (value[channel] - coarse[channel]).abs()).fold(0.0, f64::max);
         Albedo { value, error }
     }
 }
 
 /// Spherical coordinates around the normal, so that the horizon, where a lobe is cut off, is the end of an interval. Gauss
-/// and Legendre's rule for the polar angle, equal steps of the azimuth: both converge exponentially for smooth lobes.
+/// and Legendre's rule for the polar angle, equal steps of the azimuth: both converge exponentially for smooth lobes. An
+/// isotropic lobe is symmetric about the plane of incidence, from which azimuths are measured.
 fn nodes((polar, azimuths): (usize, usize)) -> Vec<Node> {
     let ring = |(node, weight): (f64, f64)| {
         let (sin, cos) = (0.25 * PI * (1.0 + node)).sin_cos();
         let solid_angle = 0.25 * PI * weight * sin * 2.0 * PI / azimuths as f64;
-        (0..azimuths).map(move |step| {
+        (0..azimuths / 2).map(move |step| {
             let azimuth = 2.0 * PI * (step as f64 + 0.5) / azimuths as f64;
             let direction = Vec3::new((sin * azimuth.cos()) as f32, (sin * azimuth.sin()) as f32, cos as f32);
-            Node { direction, weight: cos * solid_angle }
+            Node { direction, weight: 2.0 * cos * solid_angle }
         })
     };
     gauss_legendre(polar).flat_map(ring).collect()
 }
 
-fn integrate(hit: &Hit<'_>, nodes: &[Node]) -> [f64; 3] {
+fn integrate(ray: &Ray, hit: &Hit<'_>, nodes: &[Node]) -> [f64; 3] {
     let bsdf = hit.bsdf();
-    let frame = Frame::around(hit.normal);
+    let [x, y, z] = axes(ray.direction, hit.normal);
     let mut sum = [0.0; 3];
     for node in nodes {
-        let f = bsdf.eval(frame.to_world(node.direction)).to_array();
+        let local = node.direction;
+        let f = bsdf.eval(local.x * x + local.y * y + local.z * z).to_array();
         (0..3).for_each(|channel| sum[channel] += f64::from(f[channel]) * node.weight);
     }
     sum
+}
+
+/// Axes with the normal as the third, and the first in the plane of incidence.
+fn axes(incident: Vec3, normal: Vec3) -> [Vec3; 3] {
+    let across = incident.reject_from_normalized(normal).try_normalize();
+    let tangent = across.unwrap_or_else(|| normal.any_orthonormal_vector());
+    [tangent, normal.cross(tangent), normal]
 }
 
 /// Nodes in [−1, 1] and weights: the roots of the Legendre polynomial of this degree, by Newton's method.
@@ -90,7 +101,6 @@ fn gauss_legendre(degree: usize) -> impl Iterator<Item = (f64, f64)> {
 #[cfg(test)]
 mod tests {
     use arty::math::Rgb;
-    use arty::ray::Ray;
     use arty::scene::{Material, Scene, Specular};
 
     use super::*;
@@ -135,8 +145,9 @@ mod tests {
             let scene = Scene::new(&description);
             for cos in [1.0f64, 0.8, 0.4, 0.1] {
                 let back = Vec3::new((1.0 - cos * cos).sqrt() as f32, cos as f32, 0.0);
-                let hit = scene.intersect(&Ray::new(2.0 * back, -back)).expect("it hits the floor");
-                let albedo = Quadrature::new().albedo(&hit);
+                let ray = Ray::new(2.0 * back, -back);
+                let hit = scene.intersect(&ray).expect("it hits the floor");
+                let albedo = Quadrature::new().albedo(&ray, &hit);
                 let difference = (albedo.value[0] - 0.5 * exact(cos, exponent)).abs();
                 assert!(albedo.error < 1e-3, "{exponent}, {cos}: {}", albedo.error);
                 // 1e-5 for single precision and for the midpoints.

@@ -169,7 +169,7 @@ impl Furnace {
         let mut quadrature_error: f64 = 0.0;
         let radiance = |ray: &Ray| {
             let hit = scene.intersect(ray).ok_or(WhyNot::NotEnclosed)?;
-            let albedo = quadrature.albedo(&hit);
+            let albedo = quadrature.albedo(ray, &hit);
             quadrature_error = quadrature_error.max(albedo.error);
             Ok(std::array::from_fn(|c| self.emission[c] * (1.0 + albedo.value[c])))
         };
