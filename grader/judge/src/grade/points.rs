@@ -144,15 +144,26 @@ mod tests {
         }
     }
 
-    #[test]
-    fn a_slight_error_costs_the_share_of_one_check_however_many_detect_it() {
-        let yaml = "
+    /// A rubric of these tasks.
+    fn rubric_of(tasks: &str) -> Rubric {
+        let head = "
 assignment: a
 title: a
 submission: { file: a/x.rs, contract: path-tracer }
 techniques: [bsdf, nee, mis]
 reference_technique: mis
 tasks:
+";
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let file = folder.path().join("rubric.yml");
+        std::fs::write(&file, format!("{head}{tasks}")).expect("it can be written");
+        Rubric::load(&file).expect("it is a rubric")
+    }
+
+    #[test]
+    fn a_slight_error_costs_the_share_of_one_check_however_many_detect_it() {
+        let rubric = rubric_of(
+            "
   - id: one
     title: one
     points: 20
@@ -161,11 +172,8 @@ tasks:
       - { check: mean-bias, scene: b, technique: nee, max_bounces: 1 }
       - { check: mean-bias, scene: c, technique: nee, max_bounces: 1 }
       - { check: mean-bias, scene: d, technique: nee, max_bounces: 1 }
-";
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        let file = folder.path().join("rubric.yml");
-        std::fs::write(&file, yaml).expect("it can be written");
-        let rubric = Rubric::load(&file).expect("it is a rubric");
+",
+        );
         let task = &rubric.tasks[0];
         let selected: Selected<'_> = task.checks.iter().map(|spec| (task, spec)).collect();
         let points = |errors: [f64; 4]| {
@@ -193,21 +201,13 @@ tasks:
 
     #[test]
     fn a_failed_required_check_costs_its_task_and_dependent_tasks_all_points() {
-        let yaml = "
-assignment: a
-title: a
-submission: { file: a/x.rs, contract: path-tracer }
-techniques: [bsdf, nee, mis]
-reference_technique: mis
-tasks:
+        let rubric = rubric_of(
+            "
   - { id: one, title: one, points: 1, checks: [{ check: mis-weights, technique: mis, max_bounces: 3, required: true }] }
   - { id: two, title: two, points: 1, requires: [one], checks: [{ check: light-pick, technique: mis, max_bounces: 1, required: true }] }
   - { id: three, title: three, points: 1, checks: [{ check: light-pick, technique: nee, max_bounces: 1, required: true }] }
-";
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        let file = folder.path().join("rubric.yml");
-        std::fs::write(&file, yaml).expect("it can be written");
-        let rubric = Rubric::load(&file).expect("it is a rubric");
+",
+        );
         let result = |verdict| {
             let id = "mis-weights/scripted/mis/3".parse().expect("it is a name");
             let sample = sample::report("").checks[0].clone();
