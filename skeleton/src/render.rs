@@ -9,7 +9,7 @@ use crate::camera::Camera;
 use crate::film::{Anomalies, Film, Pixel};
 use crate::integrator::Integrator;
 use crate::math::{Rgb, forget_sums};
-use crate::sampler::Sampler;
+use crate::sampler::Streams;
 use crate::scene::Scene;
 
 /// One sample of one pixel: the radiance along a ray through a random position in the pixel.
@@ -20,12 +20,12 @@ pub fn sample_pixel(
     integrator: &dyn Integrator,
     scene: &Scene,
     camera: &Camera,
-    seed: u64,
+    streams: Streams,
     (x, y): (u32, u32),
     sample: u64,
 ) -> Rgb {
     forget_sums();
-    let mut sampler = Sampler::new(seed, (x, y), sample);
+    let mut sampler = streams.sampler((x, y), sample);
     let ray = camera.ray(x, y, sampler.draw_2d());
     integrator.radiance(scene, ray, &mut sampler)
 }
@@ -39,11 +39,11 @@ pub fn render(
     scene: &Scene,
     film: &mut Film,
     samples: Range<u64>,
-    seed: u64,
+    streams: Streams,
     stop: &AtomicBool,
 ) {
     let camera = scene.camera(film.width(), film.height());
-    render_from(&camera, integrator, scene, film, samples, seed, stop);
+    render_from(&camera, integrator, scene, film, samples, streams, stop);
 }
 
 /// [`render`] with another camera than the scene's, made for the size of the film.
@@ -53,7 +53,7 @@ pub fn render_from(
     scene: &Scene,
     film: &mut Film,
     samples: Range<u64>,
-    seed: u64,
+    streams: Streams,
     stop: &AtomicBool,
 ) {
     let row = |(y, pixels): (usize, &mut [Pixel])| {
@@ -64,7 +64,7 @@ pub fn render_from(
             }
             let (x, y) = (x as u32, y as u32);
             for sample in samples.clone() {
-                let value = sample_pixel(integrator, scene, camera, seed, (x, y), sample);
+                let value = sample_pixel(integrator, scene, camera, streams, (x, y), sample);
                 anomalies.inspect(x, y, sample, value);
                 pixel.add(value);
             }

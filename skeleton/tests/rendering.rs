@@ -12,6 +12,7 @@ use arty::math::{Rgb, Vec2, Vec3};
 use arty::prelude::{Integrator, Sampler, Settings, Technique};
 use arty::ray::Ray;
 use arty::render::{render, sample_pixel};
+use arty::sampler::{SamplerKind, Streams};
 use arty::scene::{LightDescription, Material, Scene, Texture};
 use arty::srgb::srgb_to_linear_u8;
 use common::scenes::{add, diffuse, empty, phong, quad, room};
@@ -36,12 +37,18 @@ fn tracer(max_bounces: u32) -> PathTracer {
 }
 
 /// Renders in passes between consecutive bounds of sample numbers, in a pool with the given number of threads.
-fn film(integrator: &dyn Integrator, scene: &Scene, threads: usize, bounds: &[u64], seed: u64) -> Film {
+fn film(
+    integrator: &dyn Integrator,
+    scene: &Scene,
+    threads: usize,
+    bounds: &[u64],
+    streams: Streams,
+) -> Film {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started");
     let mut film = Film::new(13, 7);
     for pass in bounds.windows(2) {
         pool.install(|| {
-            render(integrator, scene, &mut film, pass[0]..pass[1], seed, &AtomicBool::new(false))
+            render(integrator, scene, &mut film, pass[0]..pass[1], streams, &AtomicBool::new(false))
         });
     }
     film
@@ -50,30 +57,36 @@ fn film(integrator: &dyn Integrator, scene: &Scene, threads: usize, bounds: &[u6
 #[test]
 fn images_do_not_depend_on_threads_or_passes() {
     let (scene, tracer) = (lit_room(), tracer(6));
-    let expected = film(&tracer, &scene, 1, &[0, 12], SEED);
-    assert_eq!(expected.samples(), 12);
-    for threads in [1, 2, 3, 8] {
-        for bounds in [&[0, 12][..], &[0, 1, 12], &[0, 5, 5, 9, 12]] {
-            let other = film(&tracer, &scene, threads, bounds, SEED);
-            assert!(expected.pixels() == other.pixels(), "{threads} threads, {bounds:?}");
+    for kind in [SamplerKind::Independent, SamplerKind::Sobol] {
+        let film = |threads, bounds, seed| film(&tracer, &scene, threads, bounds, Streams { seed, kind });
+        let expected = film(1, &[0, 12], SEED);
+        assert_eq!(expected.samples(), 12);
+        for threads in [1, 2, 3, 8] {
+            for bounds in [&[0, 12][..], &[0, 1, 12], &[0, 5, 5, 9, 12]] {
+                let other = film(threads, bounds, SEED);
+                assert!(expected.pixels() == other.pixels(), "{kind:?}, {threads} threads, {bounds:?}");
+            }
         }
+        let different = film(1, &[0, 12], SEED + 1);
+        assert!(
+            expected.pixels().iter().zip(different.pixels()).all(|(a, b)| a != b),
+            "{kind:?}: another seed, another image"
+        );
     }
-    let different = film(&tracer, &scene, 1, &[0, 12], SEED + 1);
-    assert!(
-        expected.pixels().iter().zip(different.pixels()).all(|(a, b)| a != b),
-        "another seed, another image"
-    );
 }
 
 #[test]
 fn any_path_can_be_replayed() {
     let (scene, tracer) = (lit_room(), tracer(6));
-    let film = film(&tracer, &scene, 2, &[0, 4], SEED);
+    let film = film(&tracer, &scene, 2, &[0, 4], Streams::independent(SEED));
     let camera = scene.camera(13, 7);
     for (place, pixel) in film.pixels().iter().enumerate() {
         let at = (place as u32 % 13, place as u32 / 13);
-        let sum: f64 =
-            (0..4).map(|sample| f64::from(sample_pixel(&tracer, &scene, &camera, SEED, at, sample).g)).sum();
+        let sum: f64 = (0..4)
+            .map(|sample| {
+                f64::from(sample_pixel(&tracer, &scene, &camera, Streams::independent(SEED), at, sample).g)
+            })
+            .sum();
         assert_eq!((pixel.count, pixel.sum[1]), (4, sum));
     }
 }
@@ -82,7 +95,7 @@ fn any_path_can_be_replayed() {
 fn no_pixel_is_started_after_a_stop() {
     let scene = lit_room();
     let mut film = Film::new(4, 4);
-    render(&tracer(2), &scene, &mut film, 0..4, SEED, &AtomicBool::new(true));
+    render(&tracer(2), &scene, &mut film, 0..4, Streams::independent(SEED), &AtomicBool::new(true));
     assert_eq!(film.samples(), 0);
     assert!(film.pixels().iter().all(|pixel| pixel.count == 0 && pixel.mean() == Rgb::BLACK));
 }
@@ -91,7 +104,7 @@ fn no_pixel_is_started_after_a_stop() {
 fn films_without_pixels_can_be_rendered() {
     for (width, height) in [(0, 0), (0, 3), (3, 0)] {
         let mut film = Film::new(width, height);
-        render(&tracer(2), &lit_room(), &mut film, 0..4, SEED, &AtomicBool::new(false));
+        render(&tracer(2), &lit_room(), &mut film, 0..4, Streams::independent(SEED), &AtomicBool::new(false));
         assert_eq!(film.samples(), 0);
     }
 }
@@ -117,7 +130,7 @@ fn anomalies_are_counted_and_the_first_are_kept_for_any_passes() {
     let mut all = Vec::new();
     for sample in 0..10 {
         for (y, x) in (0..7).flat_map(|y| (0..13).map(move |x| (y, x))) {
-            let value = sample_pixel(&Faulty, &scene, &camera, SEED, (x, y), sample);
+            let value = sample_pixel(&Faulty, &scene, &camera, Streams::independent(SEED), (x, y), sample);
             if value != Rgb::WHITE {
                 all.push((sample, y, x, value.is_finite()));
             }
@@ -125,7 +138,7 @@ fn anomalies_are_counted_and_the_first_are_kept_for_any_passes() {
     }
     for threads in [1, 3] {
         for bounds in [&[0, 10][..], &[0, 3, 4, 10]] {
-            let film = film(&Faulty, &scene, threads, bounds, SEED);
+            let film = film(&Faulty, &scene, threads, bounds, Streams::independent(SEED));
             let anomalies = film.anomalies();
             let negative = all.iter().filter(|(.., finite)| *finite).count() as u64;
             assert!(negative > 50 && !anomalies.is_empty());
@@ -181,7 +194,7 @@ fn zero_bounces_show_emission_only() {
     scene.lights.push(LightDescription::Point { position: Vec3::ZERO, power: Rgb::gray(1e6) });
     for technique in Technique::ALL {
         let tracer = PathTracer::new(Settings { technique, max_bounces: 0 });
-        let film = film(&tracer, &Scene::new(&scene), 1, &[0, 3], SEED);
+        let film = film(&tracer, &Scene::new(&scene), 1, &[0, 3], Streams::independent(SEED));
         assert!(film.pixels().iter().all(|pixel| pixel.mean() == Rgb::new(1.0, 2.0, 3.0)), "{technique}");
     }
 }
@@ -194,7 +207,7 @@ fn each_bounce_adds_a_term_of_the_geometric_series() {
     add(&mut scene, &walls, Material { emission: Rgb::gray(1.0), ..diffuse(0.5) });
     let scene = Scene::new(&scene);
     for (bounces, expected) in [(0, 1.0), (1, 1.5), (2, 1.75), (4, 1.9375)] {
-        for pixel in film(&tracer(bounces), &scene, 1, &[0, 40], SEED).pixels() {
+        for pixel in film(&tracer(bounces), &scene, 1, &[0, 40], Streams::independent(SEED)).pixels() {
             assert!((pixel.mean().g - expected).abs() < 1e-5, "{bounces}: {:?}", pixel.mean());
         }
     }

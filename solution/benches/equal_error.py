@@ -2,19 +2,21 @@
 
 `pip install mitsuba numpy`, `cargo build --release -p solution`, then, anywhere in the checkout:
 
-    python3 solution/benches/equal_error.py [VARIANT] [SCENE …]
+    python3 solution/benches/equal_error.py [--variant=VARIANT] [--samples=N] [SCENE …]
 
 VARIANT is llvm_ad_rgb (the default) or scalar_rgb; the latter is for the diffuse scene, since Mitsuba has no modified
 Phong model and the one below runs in Python. It is compiled with everything else where Mitsuba compiles.
 
 Both render each picture several times, with seeds of their own. Neither is biased, so the error is the variance:
-relMSE = mean(variance / (mean² + 0.01)), over pixels and channels. Relative error falls as 1/time, so
-relMSE · time is what each pays for an error, whatever that is; the last column is Mitsuba's price divided by arty's: above
-1, arty is there first. Time is processor time over all threads, without Mitsuba's compilation and first picture; arty's
-includes its start. `means` is by how much the two pictures' means differ; more than one percent says that they are not of the same scene,
-and ends this with an error.
+relMSE = mean(variance / (mean² + 0.01)), over pixels and channels. relMSE · time is what each pays for an error at this
+number of samples; with independent samples, the number does not matter. Time is processor time over all threads, without
+Mitsuba's compilation and first picture; arty's includes its start. Both are shown with each of their samplers; the last
+column of arty's rows is the price of Mitsuba with the same kind of sampler, independent or its best other one, divided by
+arty's: above 1, arty is there first. `means` is by how much a picture's mean differs from Mitsuba's with independent
+samples; more than one percent says that they are not of the same scene, and ends this with an error.
 """
 
+import argparse
 import resource
 import subprocess
 import sys
@@ -38,10 +40,18 @@ CASES = {
     "cornell_box_glossy": (["cornell_box_glossy.obj"], dict(origin=[0, 1, 4.63], target=[0, 1, 0], fov=39), 8),
     "veach_mis": (["veach_mis.obj"], dict(origin=[0, 4, 16], target=[0, 1, 2], fov=30), 4),
 }
-WIDTH, HEIGHT, SAMPLES, PICTURES = 512, 412, 16, 8
+WIDTH, HEIGHT, PICTURES = 512, 412, 8
 
-variant = next((a for a in sys.argv[1:] if a.endswith("_rgb")), "llvm_ad_rgb")
-cases = [a for a in sys.argv[1:] if a != variant] or (["cornell_box"] if variant == "scalar_rgb" else list(CASES))
+# The first of each has independent samples.
+SAMPLERS = {"Mitsuba": ["independent", "stratified", "multijitter", "ldsampler"], "arty": ["independent", "sobol"]}
+
+parser = argparse.ArgumentParser(description="Time to equal error, beside Mitsuba 3.")
+parser.add_argument("--variant", default="llvm_ad_rgb", choices=["llvm_ad_rgb", "scalar_rgb"])
+parser.add_argument("--samples", type=int, default=64, help="samples per pixel; a power of four suits all samplers")
+parser.add_argument("scenes", nargs="*", choices=[*CASES, []], metavar="SCENE")
+arguments = parser.parse_args()
+variant, SAMPLES = arguments.variant, arguments.samples
+cases = arguments.scenes or (["cornell_box"] if variant == "scalar_rgb" else list(CASES))
 mi.set_variant(variant)
 import drjit as dr  # noqa: E402 (needs the variant)
 
@@ -122,7 +132,7 @@ def parts(file, folder):
         yield material, path
 
 
-def mitsuba_scene(case, folder):
+def mitsuba_scene(case, folder, sampler):
     files, camera, bounces = CASES[case]
     look = mi.ScalarTransform4f().look_at(origin=camera["origin"], target=camera["target"], up=[0, 1, 0])
     film = dict(type="hdrfilm", width=WIDTH, height=HEIGHT, rfilter=dict(type="box"), pixel_format="rgb")
@@ -130,7 +140,7 @@ def mitsuba_scene(case, folder):
         type="scene",
         integrator=dict(type="path", max_depth=bounces + 1, rr_depth=5),
         sensor=dict(type="perspective", fov=camera["fov"], fov_axis="x", to_world=look, film=film,
-                    sampler=dict(type="independent", sample_count=SAMPLES)),
+                    sampler=dict(type=sampler, sample_count=SAMPLES)),
     )
     for name in files:
         file = SCENES / name
@@ -151,8 +161,8 @@ def mitsuba_scene(case, folder):
     return mi.load_dict(scene)
 
 
-def by_mitsuba(case, folder):
-    scene = mitsuba_scene(case, folder)
+def by_mitsuba(case, folder, sampler):
+    scene = mitsuba_scene(case, folder, sampler)
     render = lambda seed: np.array(mi.render(scene, spp=SAMPLES, seed=seed))
     render(0)
     start = time.process_time()
@@ -160,12 +170,12 @@ def by_mitsuba(case, folder):
     return pictures, (time.process_time() - start) / PICTURES
 
 
-def by_arty(case, folder):
+def by_arty(case, folder, sampler):
     program, out = ROOT / "target/release/solution", Path(folder) / "arty.exr"
     pictures, start = [], resource.getrusage(resource.RUSAGE_CHILDREN)
     for seed in range(1, PICTURES + 1):
         options = [f"--width={WIDTH}", f"--height={HEIGHT}", f"--samples={SAMPLES}", f"--seed={seed}"]
-        command = [program, SCENES / f"{case}.yml", "--technique=mis", *options, f"--output={out}"]
+        command = [program, SCENES / f"{case}.yml", "--technique=mis", f"--sampler={sampler}", *options, f"--output={out}"]
         subprocess.run(command, check=True, capture_output=True)
         layers = dict(mi.Bitmap(str(out)).split())
         pictures.append(np.array(layers["<root>"].convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False)))
@@ -179,19 +189,22 @@ def summary(pictures):
 
 
 print(f"Mitsuba {mi.__version__} {variant}; {WIDTH} x {HEIGHT}, {SAMPLES} samples per pixel, {PICTURES} pictures\n")
-print(f"{'scene':<20} {'':>8} {'M samples/cpu s':>16} {'relMSE':>10} {'relMSE x s':>11} {'means':>8} {'Mitsuba / arty':>15}")
+print(f"{'scene':<20} {'':>8} {'sampler':>12} {'M samples/cpu s':>16} {'relMSE':>10} {'relMSE x s':>11} {'means':>8} {'Mitsuba / arty':>15}")
 for case in cases:
-    with tempfile.TemporaryDirectory() as folder:
-        results = {"Mitsuba": by_mitsuba(case, folder), "arty": by_arty(case, folder)}
-    means, prices = [], []
-    for name, (pictures, seconds) in results.items():
-        mean, error = summary(pictures)
-        means.append(mean.mean())
-        prices.append(error * seconds)
-        rate = WIDTH * HEIGHT * SAMPLES / seconds / 1e6
-        line = f"{case:<20} {name:>8} {rate:>16.2f} {error:>10.4f} {prices[-1]:>11.4f}"
-        if len(prices) == 2:
-            if abs(means[1] / means[0] - 1) > 0.01:
-                sys.exit(f"{case}: Mitsuba's pictures have a mean of {means[0]:.4f}, arty's {means[1]:.4f}: not the same scene")
-            line += f" {100 * (means[1] / means[0] - 1):>+7.2f}% {prices[0] / prices[1]:>15.2f}"
-        print(line)
+    prices, first_mean = {}, None
+    for name, by in (("Mitsuba", by_mitsuba), ("arty", by_arty)):
+        for sampler in SAMPLERS[name]:
+            with tempfile.TemporaryDirectory() as folder:
+                pictures, seconds = by(case, folder, sampler)
+            mean, error = summary(pictures)
+            first_mean = first_mean or mean.mean()
+            difference = mean.mean() / first_mean - 1
+            if abs(difference) > 0.01:
+                sys.exit(f"{case}: {name}'s pictures ({sampler}) have a mean of {mean.mean():.4f}, not {first_mean:.4f}: not the same scene")
+            prices[name, sampler] = error * seconds
+            rate = WIDTH * HEIGHT * SAMPLES / seconds / 1e6
+            line = f"{case:<20} {name:>8} {sampler:>12} {rate:>16.2f} {error:>10.4f} {error * seconds:>11.4f} {100 * difference:>+7.2f}%"
+            if name == "arty":
+                rivals = SAMPLERS["Mitsuba"][:1] if sampler == "independent" else SAMPLERS["Mitsuba"][1:]
+                line += f" {min(prices['Mitsuba', rival] for rival in rivals) / prices[name, sampler]:>15.2f}"
+            print(line, flush=True)

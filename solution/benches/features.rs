@@ -15,6 +15,7 @@ use arty::film::Film;
 use arty::math::{Rgb, Vec2, Vec3};
 use arty::prelude::{Scene, Settings, Technique};
 use arty::render::render;
+use arty::sampler::Streams;
 use arty::scene::{
     LightDescription, Material, Mesh, MeshTriangle, SceneDescription, Specular, Texture, file,
 };
@@ -138,7 +139,7 @@ fn seconds(scene: &Scene, technique: Technique) -> f64 {
     let mut film = Film::new(WIDTH, HEIGHT);
     let tracer = PathTracer::new(Settings { technique, max_bounces: MAX_BOUNCES });
     let start = Instant::now();
-    render(&tracer, scene, &mut film, 0..SAMPLES, 1, &AtomicBool::new(false));
+    render(&tracer, scene, &mut film, 0..SAMPLES, Streams::independent(1), &AtomicBool::new(false));
     start.elapsed().as_secs_f64()
 }
 

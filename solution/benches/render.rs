@@ -13,6 +13,7 @@ use std::time::Instant;
 use arty::film::Film;
 use arty::prelude::{Scene, Settings, Technique};
 use arty::render::render;
+use arty::sampler::Streams;
 use arty::scene::file;
 use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -39,7 +40,9 @@ fn pool(threads: usize) -> ThreadPool {
 fn image(pool: &ThreadPool, scene: &Scene, technique: Technique, samples: u64) -> Film {
     let mut film = Film::new(WIDTH, HEIGHT);
     let tracer = PathTracer::new(Settings { technique, max_bounces: MAX_BOUNCES });
-    pool.install(|| render(&tracer, scene, &mut film, 0..samples, 1, &AtomicBool::new(false)));
+    pool.install(|| {
+        render(&tracer, scene, &mut film, 0..samples, Streams::independent(1), &AtomicBool::new(false))
+    });
     film
 }
 

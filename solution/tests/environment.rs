@@ -15,6 +15,7 @@ use arty::environment::{DirectionSample, Environment, SampleDirections};
 use arty::math::{Rgb, Vec3};
 use arty::prelude::{Integrator, Sampler, Settings, Technique};
 use arty::render::sample_pixel;
+use arty::sampler::Streams;
 use arty::scene::{EnvironmentDescription, LightDescription, Scene, SceneDescription};
 use common::scenes::{add, add_lights, diffuse, empty, glass, icosphere, mirror, phong, quad};
 use common::statistics::{Estimate, chi_squared, uniformity};
@@ -173,7 +174,14 @@ fn mean(scene: &Scene, technique: Technique, max_bounces: u32, samples: u64) -> 
         let sum: f64 = (0..64)
             .flat_map(|pixel| (0..samples).map(move |sample| ((pixel % 8, pixel / 8), sample)))
             .map(|(pixel, sample)| {
-                let value = sample_pixel(&tracer as &dyn Integrator, scene, &camera, seed, pixel, sample);
+                let value = sample_pixel(
+                    &tracer as &dyn Integrator,
+                    scene,
+                    &camera,
+                    Streams::independent(seed),
+                    pixel,
+                    sample,
+                );
                 assert!(value.is_finite() && value.min_channel() >= 0.0, "{pixel:?}, {sample}: {value:?}");
                 f64::from(value.g)
             })

@@ -6,6 +6,7 @@ pub mod render_pt;
 use arty::math::{Rgb, Vec3};
 use arty::prelude::{Integrator, Settings, Technique};
 use arty::render::sample_pixel;
+use arty::sampler::Streams;
 use arty::scene::{
     CameraDescription, Defaults, LightDescription, Material, Mesh, MeshTriangle, Scene, SceneDescription,
     Specular,
@@ -101,7 +102,7 @@ fn samples(description: &SceneDescription, technique: Technique) -> Vec<Rgb> {
     let camera = scene.camera(8, 8);
     let sample = |number: u64| {
         let pixel = (number as u32 % 8, number as u32 / 8 % 8);
-        sample_pixel(&tracer as &dyn Integrator, &scene, &camera, 1, pixel, number / 64)
+        sample_pixel(&tracer as &dyn Integrator, &scene, &camera, Streams::independent(1), pixel, number / 64)
     };
     (0..256).map(sample).collect()
 }

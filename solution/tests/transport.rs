@@ -14,6 +14,7 @@ use std::f64::consts::PI;
 use arty::math::{Rgb, Vec3};
 use arty::prelude::{Integrator, Settings, Technique};
 use arty::render::sample_pixel;
+use arty::sampler::Streams;
 use arty::scene::{LightDescription, Material, Scene, SceneDescription};
 use common::scenes::{add, add_lights, black, diffuse, empty, glass, icosphere, mirror, phong, quad, room};
 use common::statistics::Estimate;
@@ -36,7 +37,14 @@ fn mean(scene: &Scene, technique: Technique, max_bounces: u32, samples: u64) -> 
             (0..64).flat_map(|pixel| (0..samples).map(move |sample| ((pixel % 8, pixel / 8), sample)));
         let sum: f64 = pixels
             .map(|(pixel, sample)| {
-                let value = sample_pixel(&tracer as &dyn Integrator, scene, &camera, seed, pixel, sample);
+                let value = sample_pixel(
+                    &tracer as &dyn Integrator,
+                    scene,
+                    &camera,
+                    Streams::independent(seed),
+                    pixel,
+                    sample,
+                );
                 assert!(value.is_finite() && value.min_channel() >= 0.0, "{pixel:?}, {sample}: {value:?}");
                 f64::from(value.g)
             })

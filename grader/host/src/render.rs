@@ -5,6 +5,7 @@ use std::sync::atomic::AtomicBool;
 use arty::film::{Anomaly, Film};
 use arty::probe::{Key, take_counts};
 use arty::render::render;
+use arty::sampler::Streams;
 use arty::scene::Scene;
 use cpu_time::ProcessTime;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
@@ -30,7 +31,7 @@ pub(crate) fn batches(key: &Key, submission: Submission, scene: &Scene, job: &Re
                 scene,
                 &mut film,
                 job.first_sample..job.first_sample.saturating_add(job.samples),
-                seed,
+                Streams::independent(seed),
                 &AtomicBool::new(false),
             );
             (seed, film)

@@ -5,6 +5,7 @@ use std::path::Path;
 use arty::math::{Rgb, first_non_finite_sum};
 use arty::probe::{self, Key, start_recording, take_recording};
 use arty::render::sample_pixel;
+use arty::sampler::Streams;
 use arty::scene::Scene;
 
 use crate::protocol::{Call, ReplayJob, Replayed};
@@ -17,7 +18,8 @@ pub(crate) fn path(key: &Key, submission: Submission, scene: &Scene, job: &Repla
     let [x, y] = job.pixel;
     let camera = scene.camera(width, height);
     start_recording(key);
-    let radiance = sample_pixel(&*integrator, scene, &camera, job.seed, (x, y), job.sample);
+    let radiance =
+        sample_pixel(&*integrator, scene, &camera, Streams::independent(job.seed), (x, y), job.sample);
     let recording = take_recording(key);
     let values = |values: Vec<probe::Value>| {
         values.into_iter().map(|value| (value.name.into_owned(), value.numbers)).collect()

@@ -11,6 +11,7 @@ use super::output::Output;
 use super::{DebugView, original_options};
 use crate::image::tev;
 use crate::integrator::Technique;
+use crate::sampler::SamplerKind;
 
 /// Renders a scene.
 ///
@@ -43,6 +44,10 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 0, help_heading = ALGORITHM)]
     pub(super) seed: u64,
 
+    /// Random numbers of the samples of a pixel
+    #[arg(long, value_enum, default_value_t = SamplerKind::Independent, help_heading = ALGORITHM)]
+    pub(super) sampler: SamplerKind,
+
     /// Width in pixels (also -sx) [default: proportional to --height, else the scene's, else 512]
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=MAX_SIDE), help_heading = IMAGE)]
     pub(super) width: Option<u32>,
@@ -65,7 +70,7 @@ pub(super) struct Args {
     /// the current folder]
     ///
     /// Existing files are replaced. An OpenEXR file contains the mean of each pixel, the variance of that mean (with two
-    /// or more samples per pixel), and metadata on how the image was rendered.
+    /// or more independent samples per pixel), and metadata on how the image was rendered.
     #[arg(short, long, value_name = "FILE", value_parser = PathBufValueParser::new().try_map(Output::new),
           help_heading = OUTPUT)]
     pub(super) output: Vec<Output>,

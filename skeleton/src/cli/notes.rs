@@ -8,6 +8,7 @@ use super::plan::Plan;
 use super::session::Rendering;
 use crate::film::Anomalies;
 use crate::integrator::{Settings, Technique};
+use crate::sampler::{SamplerKind, Streams};
 use crate::scene::Features;
 
 /// What can be told before rendering.
@@ -77,7 +78,10 @@ pub(super) fn replay(anomalies: &Anomalies, scene: &Path, plan: &Plan) -> Option
     if folder != "scenes" && folder != "extreme" {
         return None;
     }
-    let Plan { width, height, seed, .. } = plan;
+    // The grader traces paths with independent numbers only.
+    let Plan { width, height, streams: Streams { seed, kind: SamplerKind::Independent }, .. } = plan else {
+        return None;
+    };
     Some(format!(
         "replay: cargo grader replay --scene={name} --technique={technique} --max-bounces={max_bounces} --seed={seed} \
          --size={width}x{height} --pixel={},{} --sample={}",

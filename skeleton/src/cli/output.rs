@@ -12,6 +12,7 @@ use crate::film::{Film, Pixel};
 use crate::image::exr::{ExrFile, Precision};
 use crate::image::{Image, check_writable, write_png};
 use crate::math::Rgb;
+use crate::sampler::SamplerKind;
 use crate::scene::SceneDescription;
 
 /// An output file.
@@ -103,6 +104,7 @@ pub(super) fn save_all(
 #[derive(Clone, Debug)]
 pub(super) struct Provenance {
     scene: String,
+    sampler: SamplerKind,
     entries: Vec<(&'static str, String)>,
 }
 
@@ -113,7 +115,8 @@ impl Provenance {
         let mut entries = vec![
             ("arty:scene", scene.clone()),
             ("arty:scene_hash", description.hash()),
-            ("arty:seed", plan.seed.to_string()),
+            ("arty:seed", plan.streams.seed.to_string()),
+            ("arty:sampler", plan.streams.kind.name().to_owned()),
         ];
         match plan.algorithm {
             Algorithm::Debug(view) => {
@@ -126,7 +129,7 @@ impl Provenance {
                 entries.push(("arty:max_bounces", settings.max_bounces.to_string()));
             }
         }
-        Self { scene, entries }
+        Self { scene, sampler: plan.streams.kind, entries }
     }
 
     /// The name of the image in a viewer.
@@ -136,11 +139,12 @@ impl Provenance {
 
     /// The OpenEXR file: `R`, `G`, `B` are the mean of the samples, `variance.R`, … the variance of that mean.
     ///
-    /// With fewer than two samples per pixel the variance cannot be estimated, and the layer is omitted.
+    /// With fewer than two samples per pixel, or samples that are not independent, the variance cannot be estimated, and
+    /// the layer is omitted.
     fn exr(&self, rendering: &Rendering) -> ExrFile {
         let film = &rendering.film;
         let mut file = ExrFile::new(&mean(film));
-        if film.samples() >= 2 {
+        if film.samples() >= 2 && self.sampler == SamplerKind::Independent {
             file = file.with_layer("variance", &image(film, Pixel::variance_of_mean));
         }
         let anomalies = film.anomalies();

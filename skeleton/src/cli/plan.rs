@@ -10,6 +10,7 @@ use super::output::Output;
 use super::passes::Limits;
 use super::{Algorithm, DebugView};
 use crate::integrator::Settings;
+use crate::sampler::Streams;
 use crate::scene::Defaults;
 
 const DEFAULT_WIDTH: u32 = 512;
@@ -30,7 +31,7 @@ pub(super) struct Plan {
     /// Rows.
     pub(super) height: u32,
     pub(super) limits: Limits,
-    pub(super) seed: u64,
+    pub(super) streams: Streams,
     /// Number of threads; `None` for one per processor.
     pub(super) threads: Option<usize>,
     /// Output files; at least one.
@@ -66,7 +67,7 @@ impl Plan {
             width,
             height,
             limits: Limits { samples, time: args.time },
-            seed: args.seed,
+            streams: Streams { seed: args.seed, kind: args.sampler },
             threads: args.threads.map(usize::from),
             outputs,
             exposure: args.exposure,
@@ -161,7 +162,7 @@ mod tests {
         assert_eq!((plan.width, plan.height), (512, 412));
         assert_eq!(plan.limits, Limits { samples: Some(64), time: None });
         assert_eq!(settings(&plan), Settings { technique: Technique::Mis, max_bounces: 8 });
-        assert_eq!((plan.seed, plan.threads, plan.exposure), (0, None, 0.0));
+        assert_eq!((plan.streams, plan.threads, plan.exposure), (Streams::default(), None, 0.0));
         assert_eq!(plan.outputs.len(), 1);
         assert_eq!(plan.outputs[0].path(), Path::new("box.v2-mis.png"));
     }

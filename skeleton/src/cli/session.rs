@@ -57,7 +57,7 @@ pub(super) fn render_scene(
     while let Some(pass) = passes.next(start.elapsed()) {
         let pass_start = Instant::now();
         let mut take = || {
-            pool.install(|| render(integrator, scene, &mut film, pass.clone(), plan.seed, stop));
+            pool.install(|| render(integrator, scene, &mut film, pass.clone(), plan.streams, stop));
         };
         // After a panic the film is dropped, so its state does not matter.
         panic::catch_unwind(AssertUnwindSafe(&mut take)).map_err(|_| Failure::Panic)?;
@@ -92,7 +92,7 @@ mod tests {
     use super::*;
     use crate::math::{Rgb, Vec3};
     use crate::ray::Ray;
-    use crate::sampler::Sampler;
+    use crate::sampler::{Sampler, Streams};
     use crate::scene::{CameraDescription, Defaults, SceneDescription};
 
     /// Returns random numbers, and triggers an event at the call number `at`.
@@ -144,7 +144,7 @@ mod tests {
         let in_passes = render_scene(&noise, &scene, &plan, &stop, |film, _| watched.push(film.samples()));
         let in_passes = in_passes.expect("it works");
         let mut at_once = Film::new(8, 6);
-        render(&noise, &scene, &mut at_once, 0..37, 5, &stop);
+        render(&noise, &scene, &mut at_once, 0..37, Streams::independent(5), &stop);
         assert_eq!(in_passes.film.pixels(), at_once.pixels());
         assert!(watched.len() > 1 && watched.last() == Some(&37), "there were passes: {watched:?}");
         assert!(!in_passes.interrupted);

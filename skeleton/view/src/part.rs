@@ -11,6 +11,7 @@ use arty::image::Image;
 use arty::integrator::Integrator;
 use arty::math::Rgb;
 use arty::render::render_from;
+use arty::sampler::Streams;
 use arty::scene::Scene;
 
 use crate::reference::Reference;
@@ -120,8 +121,9 @@ impl Part {
     ) {
         let camera = Camera::new(camera, film.width(), film.height());
         let integrator = &*self.integrator;
+        let streams = Streams::independent(studio.seed);
         studio.pool.install(|| {
-            render_from(&camera, integrator, studio.scene, film, samples, studio.seed, stop);
+            render_from(&camera, integrator, studio.scene, film, samples, streams, stop);
         });
     }
 

@@ -12,6 +12,7 @@ use arty::integrator::{Integrator, Settings, Technique};
 use arty::math::{Rgb, Vec3};
 use arty::prelude::{Ray, Sampler};
 use arty::render::render;
+use arty::sampler::Streams;
 use arty::scene::{Defaults, Scene, SceneDescription};
 use arty_view::Save;
 use arty_view::look::{Look, ToneMap};
@@ -81,7 +82,14 @@ fn the_picture_is_the_one_that_the_command_line_renders() {
     let frame = wait(&renderer, &news, |frame| frame.pictures[0].samples == 23);
     let mut film = Film::new(SIZE.0, SIZE.1);
     let scene = Scene::new(&description());
-    render(&Noise(traced(Technique::Nee)), &scene, &mut film, 0..23, 5, &AtomicBool::new(false));
+    render(
+        &Noise(traced(Technique::Nee)),
+        &scene,
+        &mut film,
+        0..23,
+        Streams::independent(5),
+        &AtomicBool::new(false),
+    );
     let expected: Vec<Rgb> = film.pixels().iter().map(Pixel::mean).collect();
     assert_eq!(frame.pictures[0].image.pixels(), expected);
 }

@@ -8,6 +8,7 @@ use arty::cli::Algorithm;
 use arty::math::Rgb;
 use arty::probe::{Key, Recording, Value, start_recording, take_recording};
 use arty::render::sample_pixel;
+use arty::sampler::Streams;
 use arty::scene::Scene;
 
 use super::calls::{Call, RecordedPath};
@@ -18,7 +19,8 @@ use crate::view::Make;
 pub fn trace(scene: &Scene, make: Make, query: &Query, size: (u32, u32), seed: u64) -> Traced {
     let integrator = make(Algorithm::PathTracer(query.settings), scene);
     let camera = Camera::new(&query.camera, size.0, size.1);
-    let sample = |number| sample_pixel(&*integrator, scene, &camera, seed, query.pixel, number);
+    let streams = Streams::independent(seed);
+    let sample = |number| sample_pixel(&*integrator, scene, &camera, streams, query.pixel, number);
     let recorded = |number| {
         start_recording(key());
         let radiance = sample(number);
