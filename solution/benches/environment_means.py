@@ -31,7 +31,8 @@ SIZE, TILES, SAMPLES, PICTURES, REPEATED = 64, 8, 64, 16, 128
 LIMIT, RESOLUTION = 4, 0.03
 TECHNIQUES = ["bsdf", "nee", "mis"]
 
-mi.set_variant("llvm_ad_rgb")
+# Compiled ahead of time: it needs no LLVM.
+mi.set_variant("scalar_rgb")
 
 FLOOR = "v -3 0 3\nv 3 0 3\nv 3 0 -3\nv -3 0 -3\nf 1 2 3 4\n"
 LIGHT = "v -2 1.5 -1\nv -1 1.5 -1\nv -1 1.5 0\nv -2 1.5 0\nf 1 2 3 4\n"
@@ -89,6 +90,22 @@ def bitmap(texels, path):
     mi.Bitmap(np.ascontiguousarray(texels, dtype=np.float32), mi.Bitmap.PixelFormat.RGB).write(str(path))
 
 
+def rounded(make, folder):
+    """The map as a Radiance HDR file has it: eight bits of the largest channel."""
+    (folder / "rounded.hdr").write_bytes(hdr(make()))
+    return np.array(mi.Bitmap(str(folder / "rounded.hdr")))
+
+
+def hdr(texels):
+    """A Radiance HDR file: Mitsuba writes OpenEXR only with a compression that arty does not read."""
+    exponents = np.frexp(np.maximum(texels.max(axis=2), 1e-9))[1]
+    mantissas = np.minimum(np.round(texels * np.exp2(8.0 - exponents)[..., None]), 255)
+    pixels = np.concatenate([mantissas, exponents[..., None] + 128], axis=2).astype(np.uint8)
+    pixels[texels.max(axis=2) == 0] = 0
+    rows, columns = texels.shape[:2]
+    return f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {rows} +X {columns}\n".encode() + pixels.tobytes()
+
+
 def for_mitsuba(texels):
     rows, columns = texels.shape[0] * REPEATED, texels.shape[1] * REPEATED
     v, u = np.arange(rows) / (rows - 1), ((np.arange(columns) + 0.5) / columns + 0.5) % 1
@@ -102,7 +119,7 @@ def write_scene(case, folder):
     parts = {"ball": ball(), "floor": FLOOR} | ({"light": LIGHT} if light else {})
     for name, text in parts.items():
         (folder / f"{name}.obj").write_text(f"mtllib ball.mtl\nusemtl {name}\n{text}")
-    texels = make()
+    texels = rounded(make, folder)
     if wrong == "mirrored":
         texels = texels[:, ::-1]
     elif wrong == "turned":
@@ -110,12 +127,12 @@ def write_scene(case, folder):
     elif wrong == "shifted":
         twice = np.repeat(texels, 2, axis=0)
         texels = np.concatenate([twice[:1], twice[:-1]])
-    bitmap(texels, folder / "map.exr")
+    (folder / "map.hdr").write_bytes(hdr(texels))
     rotate = f", rotate: {{ axis: {turn['axis']}, degrees: {turn['degrees']} }}" if turn else ""
     (folder / "scene.yml").write_text(
         f"meshes: [{', '.join(f'{name}.obj' for name in parts)}]\n"
         f"camera: !perspective_camera {{ eye: {EYE}, center: {TARGET}, up: [0, 1, 0], fov: {FOV} }}\n"
-        f"environment: {{ file: map.exr{rotate} }}\n"
+        f"environment: {{ file: map.hdr{rotate} }}\n"
     )
 
 
@@ -126,13 +143,15 @@ def by_arty(folder, technique):
         subprocess.run(
             [PROGRAM, folder / "scene.yml", f"--technique={technique}", f"--max-bounces={BOUNCES}", f"--seed={seed}",
              f"--samples={SAMPLES}", f"--width={SIZE}", f"--height={SIZE}", "--quiet", "-o", out], check=True)
-        pictures.append(np.array(mi.Bitmap(str(out)).convert(mi.Bitmap.PixelFormat.RGB)))
+        picture = mi.Bitmap(str(out))
+        names = [field.name for field in picture.struct_()]
+        pictures.append(np.array(picture)[:, :, [names.index(channel) for channel in "RGB"]])
     return np.array(pictures)
 
 
 def by_mitsuba(case, folder):
     (_, bsdf), make, turn, light = CASES[case]
-    bitmap(for_mitsuba(make()), folder / "mitsuba.exr")
+    bitmap(for_mitsuba(rounded(make, folder)), folder / "mitsuba.exr")
     to_world = mi.ScalarTransform4f()
     if turn:
         to_world = to_world.rotate(turn["axis"], turn["degrees"])

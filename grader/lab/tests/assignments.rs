@@ -10,7 +10,7 @@ use lab::handout::secrets;
 use lab::mutants::{Kind, variants};
 use lab::new_assignment::create;
 use verdict::check::Verdict;
-use verdict::report::Cause;
+use verdict::report::{Cause, Report};
 use verdict::submission::Submission;
 
 fn workspace() -> Workspace {
@@ -155,25 +155,40 @@ fn the_path_tracers_solution_is_the_starting_file_of_the_next_sheet() {
     );
 }
 
-/// 05's are graded by tests of the judge.
-#[test]
-fn the_path_tracers_starting_file_earns_nothing_and_its_solution_everything() {
-    let (workspace, assignment) = (workspace(), "04-path-tracer".to_owned());
+/// Grades files with an assignment, named as on the command line.
+fn graded(assignment: &str, files: &[PathBuf]) -> Vec<Report> {
+    let (workspace, assignment) = (workspace(), assignment.to_owned());
     let options = Options { assignment, seed: 1, threads: 2, only: Vec::new(), limits: Limits::default() };
     let grader = Grader::new(&workspace, &options).expect("the harness works");
-    let path_tracer = Assignment::open(&workspace, &options.assignment).expect("its rubric is sound");
-    let grade = |file: PathBuf| {
-        let submission = Submission::load_trusted(&file).expect("it is there");
+    let grade = |file: &PathBuf| {
+        let submission = Submission::load_trusted(file).expect("it is there");
         grader.grade(&submission, |_| {}).expect("the harness works")
     };
-    let starter = grade(path_tracer.folder.starter_file());
+    files.iter().map(grade).collect()
+}
+
+/// The starting file earns nothing and is recognised, the solution earns everything.
+fn assert_earns_nothing_at_first_and_everything_at_last(name: &str) {
+    let assignment = Assignment::open(&workspace(), name).expect("its rubric is sound");
+    let reports = graded(name, &[assignment.folder.starter_file(), assignment.solution_file()]);
+    let [starter, solution] = &reports[..] else { panic!("two reports") };
     assert_eq!(starter.submission.build_failure, None);
     assert_eq!(starter.points.earned, 0.0, "{:#?}", starter.tasks);
     assert!(matches!(starter.diagnosis[0].cause, Cause::NotBegun { .. }), "{:?}", starter.diagnosis);
-    let solution = grade(path_tracer.solution_file());
     let failed: Vec<_> = solution.checks.iter().filter(|check| check.verdict != Verdict::Pass).collect();
     assert!(failed.is_empty(), "{failed:#?}");
     assert_eq!(solution.points.earned, solution.points.automatic_max);
+}
+
+/// 05's are graded by tests of the judge.
+#[test]
+fn the_path_tracers_starting_file_earns_nothing_and_its_solution_everything() {
+    assert_earns_nothing_at_first_and_everything_at_last("04-path-tracer");
+}
+
+#[test]
+fn the_environments_starting_file_earns_nothing_and_its_solution_everything() {
+    assert_earns_nothing_at_first_and_everything_at_last("06-environment");
 }
 
 #[test]
@@ -194,14 +209,35 @@ fn a_rubric_that_asks_for_a_mean_that_cannot_be_judged_is_refused() {
     assert!(message.contains("cornell_box") && message.contains("% of the bounces"), "{message}");
 }
 
-#[test]
-fn a_new_assignment_is_sound_and_is_never_written_over_another() {
+/// A folder in which assignments can be made.
+fn empty_checkout() -> (tempfile::TempDir, Workspace) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     for name in ["skeleton", "scenes", "assignments"] {
         std::fs::create_dir_all(folder.path().join(name)).expect("it can be made");
     }
     std::fs::write(folder.path().join("skeleton/Cargo.toml"), "").expect("it can be written");
     let workspace = Workspace::open(folder.path()).expect("it has skeleton/ and scenes/");
+    (folder, workspace)
+}
+
+#[test]
+fn a_new_assignment_grades_at_once() {
+    let (_folder, checkout) = empty_checkout();
+    let file = all().remove(0).rubric.submission;
+    let made = create(&checkout, "07-volumes", "Volumes", &file).expect("it can be written");
+    let assignment = Assignment::open(&checkout, "07-volumes").expect("its rubric is sound");
+    let wrong = made.join("wrong.rs");
+    let mistake = variants(&assignment).expect("they fit the solution").list.remove(0);
+    std::fs::write(&wrong, mistake.source).expect("it can be written");
+    let files = [assignment.folder.starter_file(), assignment.solution_file(), wrong];
+    let points: Vec<f64> =
+        graded(&made.display().to_string(), &files).iter().map(|report| report.points.earned).collect();
+    assert_eq!(points, [0.0, 10.0, 0.0]);
+}
+
+#[test]
+fn a_new_assignment_is_sound_and_is_never_written_over_another() {
+    let (_folder, workspace) = empty_checkout();
     let file = all().remove(0).rubric.submission;
     create(&workspace, "07-volumes", "Volumes", &file).expect("it can be written");
     let made = Assignment::open(&workspace, "07-volumes").expect("its rubric is sound");

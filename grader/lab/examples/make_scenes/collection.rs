@@ -1,4 +1,8 @@
-//! A collection of scenes, models and textures.
+//! A collection of scenes, models, textures and maps of environments.
+
+use std::collections::BTreeMap;
+
+use arty::image::Image;
 
 use crate::model::Model;
 use crate::output::{Content, OutputFile};
@@ -13,6 +17,10 @@ pub(crate) struct Collection {
     pub(crate) models: Vec<Model>,
     /// PNG files by name.
     pub(crate) textures: Vec<(&'static str, Vec<u8>)>,
+    /// Environments as YAML, by the names of their scenes.
+    pub(crate) environments: BTreeMap<&'static str, &'static str>,
+    /// OpenEXR files by name.
+    pub(crate) maps: Vec<(&'static str, Image)>,
 }
 
 impl Collection {
@@ -26,7 +34,9 @@ impl Collection {
         let text = |name: String, text: String| OutputFile { name, content: Content::Text(text) };
         let mut files = Vec::new();
         for scene in &self.scenes {
-            files.push(text(format!("{}.yml", scene.name), scene.yaml()));
+            let environment = self.environments.get(scene.name);
+            let environment = environment.map_or(String::new(), |it| format!("environment: {it}\n"));
+            files.push(text(format!("{}.yml", scene.name), scene.yaml() + &environment));
         }
         for model in &self.models {
             files.push(text(format!("{}.obj", model.name), model.obj()));
@@ -34,6 +44,9 @@ impl Collection {
         }
         for (name, png) in &self.textures {
             files.push(OutputFile { name: (*name).to_owned(), content: Content::Png(png.clone()) });
+        }
+        for (name, map) in &self.maps {
+            files.push(OutputFile { name: (*name).to_owned(), content: Content::Map(map.clone()) });
         }
         files
     }

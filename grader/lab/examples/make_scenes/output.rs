@@ -3,6 +3,9 @@
 use std::fs;
 use std::path::Path;
 
+use arty::image::Image;
+use arty::image::exr::{ExrFile, Precision};
+
 /// One file of the folder.
 pub(crate) struct OutputFile {
     /// Path relative to the folder of the scenes.
@@ -17,20 +20,25 @@ pub(crate) enum Content {
     Text(String),
     /// A PNG file. Equal if its pixels are, since another release of the encoder may pack them differently.
     Png(Vec<u8>),
+    /// An OpenEXR file with this image. Equal if its pixels are.
+    Map(Image),
 }
 
 /// Writes all files, and replaces existing ones.
 pub(crate) fn write(folder: &Path, files: &[OutputFile]) -> std::io::Result<()> {
     for file in files.iter().filter(|file| difference(folder, file).is_some()) {
-        let bytes = match &file.content {
-            Content::Text(text) => text.as_bytes(),
-            Content::Png(bytes) => bytes,
-        };
         let path = folder.join(&file.name);
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder)?;
         }
-        fs::write(path, bytes)?;
+        match &file.content {
+            Content::Text(text) => fs::write(path, text)?,
+            Content::Png(bytes) => fs::write(path, bytes)?,
+            Content::Map(image) => {
+                let written = ExrFile::new(image).write(&path, Precision::Full);
+                written.map_err(|error| std::io::Error::other(error.to_string()))?;
+            }
+        }
     }
     Ok(())
 }
@@ -50,6 +58,10 @@ fn difference(folder: &Path, file: &OutputFile) -> Option<String> {
         Content::Text(expected) => {
             let found = String::from_utf8_lossy(&found).replace("\r\n", "\n");
             first_different_line(&found, expected).map(|line| format!("scenes/{name}:{line}: differs"))
+        }
+        Content::Map(expected) => {
+            let file = ExrFile::read(&folder.join(name)).ok().and_then(|file| file.layer(""));
+            (file.as_ref() != Some(expected)).then(|| format!("scenes/{name}: the texels differ"))
         }
         Content::Png(expected) => {
             (pixels(&found) != pixels(expected)).then(|| format!("scenes/{name}: the pixels differ"))

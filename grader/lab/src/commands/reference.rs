@@ -34,6 +34,9 @@ pub(super) struct Arguments {
     /// Seed of all random numbers
     #[arg(long, default_value_t = 20_190_501)]
     seed: u64,
+    /// Samples per pixel of each of 64 batches; a reference records it [default: 2048]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    samples: Option<u64>,
     /// Render only what references lack, and keep the rest of them
     #[arg(long, conflicts_with = "only_pictures")]
     missing: bool,
@@ -56,6 +59,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
 
     let mut programs: BTreeMap<String, (Technique, Arc<SubmissionProgram>)> = BTreeMap::new();
     let count = wanted.len();
+    let standard = Effort::default();
+    let effort = Effort { samples: arguments.samples.unwrap_or(standard.samples), ..standard };
     for (index, (scene, (wanted, name))) in wanted.into_iter().enumerate() {
         eprintln!("{scene} ({} of {count}), by {name} …", index + 1);
         let (technique, program) = match programs.entry(name) {
@@ -75,8 +80,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
                 reference::make(program, &description, wanted, *technique, effort, arguments.seed)
             };
             let made = match known {
-                Some(known) => completed(known, &wanted, render)?,
-                None => render(&wanted, Effort::default())?,
+                Some(known) => completed(known, &wanted, effort, render)?,
+                None => render(&wanted, effort)?,
             };
             create_folder(path.parent().unwrap_or(workspace.root()))?;
             reference::save(&made, &path)?;
@@ -96,6 +101,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
 fn completed(
     mut known: Reference,
     wanted: &Wanted,
+    effort: Effort,
     render: impl Fn(&Wanted, Effort) -> Result<Reference>,
 ) -> Result<Reference> {
     let (of_known_views, new): (Wanted, Wanted) =
@@ -106,11 +112,11 @@ fn completed(
     });
     let lacking: Wanted = lacking.collect();
     // Their mean is known.
-    let moments_only = Effort { batches: 2, samples: 1, ..Effort::default() };
+    let moments_only = Effort { batches: 2, samples: 1, ..effort };
     for (view, made) in render(&lacking, moments_only)?.views {
         known.views.entry(view).and_modify(|images| images.techniques.extend(made.techniques));
     }
-    let made = render(&new, Effort::default())?;
+    let made = render(&new, effort)?;
     known.views.extend(made.views);
     known.provenance.extend(made.provenance);
     Ok(known)

@@ -14,6 +14,7 @@ pub(crate) mod mesh;
 mod mirror_light;
 mod mixed_lights;
 mod planes;
+mod sky;
 pub(crate) mod veach_mis;
 
 use crate::collection::Collection;
@@ -34,5 +35,6 @@ pub(crate) fn all() -> Collection {
     lamp_room::add_to(&mut collection);
     furnace::add_to(&mut collection);
     planes::add_to(&mut collection);
+    sky::add_to(&mut collection);
     collection
 }
