@@ -74,6 +74,12 @@ impl Table {
             _ => (text, 0),
         };
         let separator = hint.unwrap_or_else(|| separator(text));
+        if let Some(line) = open_quote(text, separator) {
+            return Err((
+                before + line,
+                "a cell begins with `\"`, which is closed nowhere: close or remove it".into(),
+            ));
+        }
         let mut reader =
             ReaderBuilder::new().delimiter(separator).flexible(true).from_reader(text.as_bytes());
         let blame =
@@ -172,6 +178,24 @@ fn separator(text: &str) -> u8 {
     SEPARATORS[best]
 }
 
+/// Line of a quoted cell that never ends, counted from 1: it would swallow all lines after it.
+fn open_quote(text: &str, separator: u8) -> Option<u64> {
+    let (mut line, mut is_start) = (1, true);
+    // Line of the cell that is open, and of one that the byte before has closed: a doubled quote opens it again.
+    let (mut open, mut closed) = (None, None);
+    for byte in text.bytes() {
+        line += u64::from(byte == b'\n');
+        (open, closed) = match (byte, open, closed) {
+            (b'"', Some(began), _) => (None, Some(began)),
+            (b'"', None, Some(began)) => (Some(began), None),
+            (b'"', None, None) if is_start => (Some(line), None),
+            (_, open, _) => (open, None),
+        };
+        is_start = byte == separator || byte == b'\n';
+    }
+    open
+}
+
 /// A number as offices write it: `8`, `7.5` or `7,5`; `None` if it is none.
 pub fn number(text: &str) -> Option<f64> {
     let value: f64 = text.trim().replace(',', ".").parse().ok()?;
@@ -214,6 +238,9 @@ mod tests {
         }
         let message = table(b"sep=,\na,b\n1,2\n1,2,3\n").expect_err("too many").to_string();
         assert!(message.contains("table.csv:4:"), "{message}");
+        let message = table(b"a,b\n1,2\n\"3,4\n5,\"\"6\n").expect_err("it never ends").to_string();
+        assert!(message.contains("table.csv:3:") && message.contains("closed nowhere"), "{message}");
+        assert!(table(b"a,b\n3\",4\n").is_ok(), "inches");
         let table = table(b"E-Mail address,X\n").expect("it is a table");
         assert_eq!(table.column(&["mail", "Email Address"]), Some(0));
     }
