@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use super::intake::{reader, wanted};
 use super::marks_table::{Entry, entries};
 use classroom::class::gradebook::{Row, load_rows};
-use classroom::class::lookup::rows_of;
+use classroom::class::lookup::Lookup;
 use classroom::marks::{Mark, Marks, fingerprint, why_not};
 use harness::assignment::{Assignment, AssignmentOption};
 use harness::workspace::Workspace;
@@ -101,12 +101,13 @@ fn mark(student: &str, explanation: &str, entry: &Entry) -> Mark {
 
 /// Records marks of rows of a class: all of them, or none if one is wrong or contradicts another.
 fn mark_in_class(out: &Path, rows: &[Row], entries: &[Entry]) -> Result<ExitCode> {
+    let lookup = Lookup::new(rows);
     let mut marks: Vec<Mark> = Vec::new();
     let mut told = Vec::new();
     for entry in entries {
         let (task, points) = (&entry.task, entry.points);
         let blame = |message: String| Error::Input(format!("{}{message}", entry.at));
-        for row in rows_of(rows, &entry.student).map_err(blame)?.into_iter().map(|index| &rows[index]) {
+        for row in lookup.rows_of(&entry.student).map_err(blame)? {
             let earlier = marks.iter().find(|mark| mark.student == row.key && mark.task == *task);
             if let Some(other) =
                 earlier.filter(|other| other.points != points || other.comment != entry.comment)

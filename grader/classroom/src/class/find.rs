@@ -1,102 +1,56 @@
 //! Finds the student of a folder: by number, login and name, which must not contradict each other.
 
-use super::identity::{Identity, team_key};
-use super::names::{Agreement, agreement, same};
+use super::directory::Directory;
+use super::identity::Identity;
+use super::names::{Agreement, agreement};
 use super::roster::Student;
 
 /// Indices of the students whom a folder's name names: none, one, or the members of a team.
 ///
 /// # Errors
 /// If number, login and name are of different students, with a message. Nothing is guessed.
-pub(super) fn find(roster: &[Student], identity: &Identity) -> Result<Vec<usize>, String> {
+pub(super) fn find(roster: &Directory<'_>, identity: &Identity) -> Result<Vec<usize>, String> {
     if let Some(team) = &identity.team {
-        let members = (0..roster.len()).filter(|&index| is_in(&roster[index], team));
-        return Ok(members.collect());
+        return Ok(roster.team(team).to_vec());
     }
     let found = if identity.has_parts {
         with_parts(roster, identity)?
     } else {
         let label = identity.readings.first().map_or("", |reading| reading.login.as_str());
-        let team: Vec<usize> = (0..roster.len()).filter(|&index| same(&roster[index].team, label)).collect();
         match plain(roster, label)? {
-            None if !team.is_empty() => return Ok(team),
+            None => return Ok(roster.named_team(label).to_vec()),
             found => found,
         }
     };
     Ok(found.into_iter().collect())
 }
 
-fn is_in(student: &Student, team: &str) -> bool {
-    !student.team.is_empty() && team_key(&student.team) == team
-}
-
-/// The only index for which `fits` holds.
-fn only(roster: &[Student], fits: impl Fn(&Student) -> bool) -> Option<usize> {
-    let mut found = roster.iter().enumerate().filter(|(_, student)| fits(student)).map(|(index, _)| index);
-    found.next().filter(|_| found.next().is_none())
-}
-
 /// The student of a folder that is named after a login, an address, a number or a name.
-fn plain(roster: &[Student], label: &str) -> Result<Option<usize>, String> {
-    let found = by_login(roster, label).or_else(|| by_name(roster, &label.replace('_', " ")));
+fn plain(roster: &Directory<'_>, label: &str) -> Result<Option<usize>, String> {
+    let found = roster.by_login(label).or_else(|| roster.by_name(&label.replace('_', " ")));
     if found.is_some() {
         return Ok(found);
     }
-    // GitHub Classroom: `assignment-login`
-    let ends = |student: &&Student| {
-        let rest = label.to_lowercase();
-        let rest = rest.strip_suffix(&student.github.to_lowercase());
-        !student.github.is_empty() && rest.is_some_and(|rest| rest.ends_with('-'))
-    };
-    let owners: Vec<&Student> = roster.iter().filter(ends).collect();
-    if let [one, other, ..] = owners.as_slice() {
-        return Err(format!(
+    match roster.by_github(label)[..] {
+        [] => Ok(None),
+        [one] => Ok(Some(one)),
+        [one, other, ..] => Err(format!(
             "`{label}` ends in the names on GitHub of {} and of {}: rename the folder to a login",
-            one.describe(),
-            other.describe()
-        ));
+            roster.students[one].describe(),
+            roster.students[other].describe()
+        )),
     }
-    Ok(only(roster, |student| ends(&student)))
-}
-
-fn by_login(roster: &[Student], login: &str) -> Option<usize> {
-    only(roster, |student| {
-        [&student.login, &student.email, &student.github].iter().any(|own| same(own, login))
-    })
-    .or_else(|| only(roster, |student| same(student.account(), login)))
-    .or_else(|| {
-        let numbers = |student: &Student| [&student.numbers[..], &student.identifiers[..]].concat();
-        only(roster, |student| numbers(student).iter().any(|own| same(own, login)))
-    })
-}
-
-/// The student with a name: as it is written, or else in ASCII. Moodle puts the name of the team in front of it.
-fn by_name(roster: &[Student], name: &str) -> Option<usize> {
-    let agrees = |least: Agreement| {
-        move |student: &Student| {
-            let own = student.full_name();
-            let with_team = format!("{} {own}", student.team);
-            !own.is_empty() && (agreement(&own, name) >= least || agreement(&with_team, name) >= least)
-        }
-    };
-    only(roster, agrees(Agreement::Full)).or_else(|| only(roster, agrees(Agreement::Ascii)))
 }
 
 /// The student of a folder that a course system has named after number, login and name.
-fn with_parts(roster: &[Student], identity: &Identity) -> Result<Option<usize>, String> {
+fn with_parts(roster: &Directory<'_>, identity: &Identity) -> Result<Option<usize>, String> {
     let number = identity.number.as_deref().unwrap_or_default();
-    let has = |numbers: &[String]| numbers.iter().any(|own| same(own, number));
-    let know_identifiers = roster.iter().any(|student| !student.identifiers.is_empty());
-    let by_number = if know_identifiers {
-        only(roster, |student| has(&student.identifiers))
-    } else {
-        only(roster, |student| has(&student.numbers))
-    };
+    let by_number = roster.by_number(number);
     let by_login = of_logins(roster, identity)?;
     let names = || identity.readings.iter().map(|reading| reading.name.as_str());
-    let by_name = names().find_map(|name| by_name(roster, name));
+    let by_name = names().find_map(|name| roster.by_name(name));
     let Some(found) = by_number.or(by_login).or(by_name) else { return Ok(None) };
-    let student = &roster[found];
+    let student = &roster.students[found];
     let conflict = |what: &str, other: &str| {
         Err(format!(
             "its {what} is that of {}, but {other}: correct the roster, or rename the folder to the student's login",
@@ -106,7 +60,7 @@ fn with_parts(roster: &[Student], identity: &Identity) -> Result<Option<usize>, 
     let what = if by_number.is_some() { format!("number {number}") } else { "login".to_owned() };
     for (other, part) in [(by_login, "login"), (by_name, "name")] {
         if let Some(other) = other.filter(|&other| other != found) {
-            return conflict(&what, &format!("its {part} is that of {}", roster[other].describe()));
+            return conflict(&what, &format!("its {part} is that of {}", roster.students[other].describe()));
         }
     }
     let is_named = !student.full_name().is_empty() && names().any(|name| !name.is_empty());
@@ -126,11 +80,11 @@ fn agreement_of(student: &Student, identity: &Identity) -> Agreement {
 }
 
 /// The student whose login is in the name, whichever way it is split; of several the one whose name is there as well.
-fn of_logins(roster: &[Student], identity: &Identity) -> Result<Option<usize>, String> {
+fn of_logins(roster: &Directory<'_>, identity: &Identity) -> Result<Option<usize>, String> {
     let mut found: Vec<(usize, Agreement)> = Vec::new();
     for reading in identity.readings.iter().filter(|reading| !reading.login.is_empty()) {
-        if let Some(index) = by_login(roster, &reading.login) {
-            found.push((index, agreement(&roster[index].full_name(), &reading.name)));
+        if let Some(index) = roster.by_login(&reading.login) {
+            found.push((index, agreement(&roster.students[index].full_name(), &reading.name)));
         }
     }
     let named = found.iter().filter(|(_, agreement)| *agreement >= Agreement::Ascii).count();
@@ -145,8 +99,8 @@ fn of_logins(roster: &[Student], identity: &Identity) -> Result<Option<usize>, S
         [one] => Ok(Some(*one)),
         [one, other, ..] => Err(format!(
             "its login can be that of {} and of {}: rename the folder to one of the logins",
-            roster[*one].describe(),
-            roster[*other].describe()
+            roster.students[*one].describe(),
+            roster.students[*other].describe()
         )),
     }
 }
@@ -165,7 +119,7 @@ mod tests {
     }
 
     fn found(roster: &[Student], label: &str) -> Result<Vec<usize>, String> {
-        find(roster, &Identity::of(label))
+        find(&Directory::new(roster), &Identity::of(label))
     }
 
     #[test]

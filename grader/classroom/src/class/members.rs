@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
+use super::directory::Directory;
 use super::find::find;
 use super::identity::team_key;
 use super::layout::{self, Sent};
@@ -72,8 +73,11 @@ impl Class {
         }
         let mut sent_by: Vec<Vec<Sent>> = vec![Vec::new(); students.len()];
         let mut unknown = Vec::new();
-        for sent in layout::submissions(folder)? {
-            let owners = owners(&students, &sent)?;
+        let all_sent = layout::submissions(folder)?;
+        let directory = Directory::new(&students);
+        let owners_of = |sent: &Sent| owners(&directory, sent);
+        let all_owners: Vec<Vec<usize>> = all_sent.iter().map(owners_of).collect::<Result<_>>()?;
+        for (sent, owners) in all_sent.into_iter().zip(all_owners) {
             if owners.is_empty() {
                 unknown.push(sent);
                 continue;
@@ -92,8 +96,9 @@ impl Class {
             let key = student.key();
             members.push(Member { on_roster: true, ..member(Some(student), &key, sent, &mut keys) });
         }
+        let others = Directory::new(&roster.others);
         for sent in unknown {
-            let other = owners(&roster.others, &sent)?;
+            let other = owners(&others, &sent)?;
             let student = other.first().map(|&index| roster.others[index].clone());
             let key = student.as_ref().map_or_else(|| sent.identity.key(), Student::key);
             members.push(member(student, &key, vec![sent], &mut keys));
@@ -111,7 +116,9 @@ impl Class {
         let mut of_teams: BTreeMap<String, Vec<Receipt>> = BTreeMap::new();
         for member in &mut self.members {
             let names: Vec<String> = member.names().iter().map(|name| name.trim().to_lowercase()).collect();
-            unknown.retain(|student| !names.iter().any(|name| name == student));
+            for name in &names {
+                unknown.remove(name.as_str());
+            }
             let names: Vec<&str> = names.iter().map(String::as_str).collect();
             member.receipts = manifest.of(&names).to_vec();
             for receipt in member.receipts.iter().filter(|receipt| !receipt.path.is_empty()) {
@@ -145,7 +152,7 @@ impl Class {
 }
 
 /// Indices of the students who sent something.
-fn owners(students: &[Student], sent: &Sent) -> Result<Vec<usize>> {
+fn owners(students: &Directory<'_>, sent: &Sent) -> Result<Vec<usize>> {
     let blame = |message: String| Error::Input(format!("the submission {}: {message}", sent.label));
     let mut owners = find(students, &sent.identity).map_err(blame)?;
     if owners.is_empty() {

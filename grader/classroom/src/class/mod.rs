@@ -9,6 +9,7 @@
 
 mod changes;
 mod comments;
+mod directory;
 pub mod feedback;
 mod find;
 pub mod gradebook;

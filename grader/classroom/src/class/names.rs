@@ -10,17 +10,15 @@ pub(super) fn fold(text: &str) -> String {
 
 /// True if two texts are the same to a reader, and not empty.
 pub(super) fn same(one: &str, other: &str) -> bool {
-    !one.trim().is_empty() && fold(one.trim()) == fold(other.trim())
+    let (one, other) = (one.trim(), other.trim());
+    if one.is_ascii() && other.is_ascii() {
+        return !one.is_empty() && one.eq_ignore_ascii_case(other);
+    }
+    !one.is_empty() && fold(one) == fold(other)
 }
 
-/// The words of a name, sorted, since some systems put the family name first.
-pub(super) fn words(name: &str) -> Vec<String> {
-    sorted_words(&fold(name))
-}
-
-/// [`words`] in the ways that systems write them in ASCII: Müller as muller and as mueller.
-pub(super) fn ascii_words(name: &str) -> [Vec<String>; 2] {
-    let folded = fold(name);
+/// The words of a name in the ways that systems write them in ASCII: Müller as muller and as mueller.
+fn ascii_words(folded: &str) -> [Vec<String>; 2] {
     let without_marks = |text: &str| -> String {
         text.nfkd()
             .filter(|&c| !is_combining_mark(c))
@@ -38,7 +36,7 @@ pub(super) fn ascii_words(name: &str) -> [Vec<String>; 2] {
             other => other.to_string(),
         })
         .collect();
-    [sorted_words(&without_marks(&folded)), sorted_words(&without_marks(&german))]
+    [sorted_words(&without_marks(folded)), sorted_words(&without_marks(&german))]
 }
 
 /// Letters that Unicode does not decompose, in ASCII.
@@ -56,6 +54,7 @@ fn letters(c: char) -> String {
     }
 }
 
+/// The words of a text, sorted, since some systems put the family name first.
 fn sorted_words(text: &str) -> Vec<String> {
     let words = text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     let mut words: Vec<String> = words.map(str::to_owned).collect();
@@ -76,23 +75,56 @@ pub(super) enum Agreement {
     Full,
 }
 
+/// A name, taken apart once to be compared with many.
+#[derive(Clone, Debug)]
+pub(super) struct Name {
+    /// Words as they are written, then in the two ways of ASCII.
+    forms: [Vec<String>; 3],
+}
+
+impl Name {
+    /// Takes a name apart.
+    pub(super) fn new(name: &str) -> Self {
+        let folded = fold(name);
+        let plain = sorted_words(&folded);
+        if folded.is_ascii() {
+            return Self { forms: [plain.clone(), plain.clone(), plain] };
+        }
+        let [one, other] = ascii_words(&folded);
+        Self { forms: [plain, one, other] }
+    }
+
+    /// Its words as they are written; empty if it has none.
+    pub(super) fn plain(&self) -> String {
+        self.forms[0].join(" ")
+    }
+
+    /// Its words in all ways to write them.
+    pub(super) fn forms(&self) -> [String; 3] {
+        self.forms.each_ref().map(|words| words.join(" "))
+    }
+
+    /// Compares it with another.
+    pub(super) fn agreement(&self, other: &Self) -> Agreement {
+        let (ones, others) = (&self.forms, &other.forms);
+        if ones[0].is_empty() || others[0].is_empty() {
+            return Agreement::None;
+        }
+        if ones[0] == others[0] {
+            return Agreement::Full;
+        }
+        if ones.iter().any(|form| others.contains(form)) {
+            return Agreement::Ascii;
+        }
+        let common = |one: &[String], other: &[String]| one.iter().any(|word| other.contains(word));
+        let shares = ones.iter().any(|one| others.iter().any(|other| common(one, other)));
+        if shares { Agreement::Part } else { Agreement::None }
+    }
+}
+
 /// Compares two names.
 pub(super) fn agreement(one: &str, other: &str) -> Agreement {
-    let (plain_one, plain_other) = (words(one), words(other));
-    if plain_one.is_empty() || plain_other.is_empty() {
-        return Agreement::None;
-    }
-    if plain_one == plain_other {
-        return Agreement::Full;
-    }
-    let forms = |plain: Vec<String>, name: &str| [vec![plain], ascii_words(name).to_vec()].concat();
-    let (ones, others) = (forms(plain_one, one), forms(plain_other, other));
-    if ones.iter().any(|form| others.contains(form)) {
-        return Agreement::Ascii;
-    }
-    let common = |one: &[String], other: &[String]| one.iter().any(|word| other.contains(word));
-    let shares = ones.iter().any(|one| others.iter().any(|other| common(one, other)));
-    if shares { Agreement::Part } else { Agreement::None }
+    Name::new(one).agreement(&Name::new(other))
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::names::{Agreement, agreement, same};
+use super::names::{Agreement, Name, same};
 use crate::table::{Row, Table};
 use verdict::error::{Error, Result};
 
@@ -65,9 +65,14 @@ impl Roster {
                 roster.students = students;
                 continue;
             }
+            let name_of = |student: &Student| Name::new(&student.full_name());
+            let mut names: Vec<Name> = roster.students.iter().map(name_of).collect();
             for student in students {
-                match roster.students.iter().position(|own| is_same_person(&roster.students, own, &student)) {
-                    Some(own) => roster.students[own].complete(student),
+                match position(&roster.students, &names, &student) {
+                    Some(own) => {
+                        roster.students[own].complete(student);
+                        names[own] = name_of(&roster.students[own]);
+                    }
                     None => roster.others.push(student),
                 }
             }
@@ -105,7 +110,7 @@ pub fn load(path: &Path, with_groups: bool) -> Result<Vec<Student>> {
             students.push(student);
             continue;
         };
-        if (Student { line: 0, ..earlier.clone() }) != (Student { line: 0, ..student.clone() }) {
+        if !earlier.has_data_of(&student) {
             return Err(blame(
                 student.line,
                 format!(
@@ -226,6 +231,16 @@ impl Student {
         names.find(|name| !name.is_empty()).unwrap_or_default()
     }
 
+    /// True if two rows differ in their lines only.
+    fn has_data_of(&self, other: &Self) -> bool {
+        fn texts(student: &Student) -> [&String; 6] {
+            let Student { last_name, first_name, login, email, github, team, .. } = student;
+            [last_name, first_name, login, email, github, team]
+        }
+        texts(self) == texts(other)
+            && (&self.identifiers, &self.numbers) == (&other.identifiers, &other.numbers)
+    }
+
     /// What two rows have in common that only one student can have; `None` if nothing.
     fn shared(&self, other: &Self) -> Option<String> {
         let pairs = [(&self.login, &other.login), (&self.email, &other.email), (&self.github, &other.github)];
@@ -234,11 +249,7 @@ impl Student {
         let number = || {
             common(&self.identifiers, &other.identifiers).or_else(|| common(&self.numbers, &other.numbers))
         };
-        let is_same_row = || {
-            let line = 0;
-            Self { line, ..self.clone() } == Self { line, ..other.clone() }
-        };
-        text.or_else(number).or_else(|| is_same_row().then(|| self.full_name()))
+        text.or_else(number).or_else(|| self.has_data_of(other).then(|| self.full_name()))
     }
 
     /// Adds what another table knows of the same student.
@@ -267,18 +278,18 @@ impl Student {
     }
 }
 
-/// True if a row of another table is of this student. Names decide only where nobody else has the same.
-fn is_same_person(students: &[Student], own: &Student, other: &Student) -> bool {
-    if [(&own.login, &other.login), (&own.email, &other.email)].iter().any(|(own, other)| same(own, other)) {
-        return true;
-    }
+/// The student whom a row of another table means. Names decide only where nobody else has the same.
+fn position(students: &[Student], names: &[Name], other: &Student) -> Option<usize> {
+    let name = Name::new(&other.full_name());
+    let is_namesake = |index: &usize| names[*index].agreement(&name) >= Agreement::Ascii;
+    let namesakes: Vec<usize> = (0..students.len()).filter(is_namesake).collect();
     let differs = |own: &str, other: &str| !own.is_empty() && !other.is_empty() && !same(own, other);
-    if differs(&own.login, &other.login) || differs(&own.email, &other.email) {
-        return false;
-    }
-    let is_namesake =
-        |student: &&Student| agreement(&student.full_name(), &other.full_name()) >= Agreement::Ascii;
-    is_namesake(&own) && students.iter().filter(is_namesake).count() == 1
+    (0..students.len()).find(|&index| {
+        let own = &students[index];
+        let pairs = [(&own.login, &other.login), (&own.email, &other.email)];
+        pairs.iter().any(|(own, other)| same(own, other))
+            || (namesakes == [index] && !pairs.iter().any(|(own, other)| differs(own, other)))
+    })
 }
 
 #[cfg(test)]

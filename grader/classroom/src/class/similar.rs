@@ -8,6 +8,7 @@
 mod archive;
 pub mod export;
 pub mod page;
+mod pairs;
 mod passages;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -15,6 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub use archive::{Archive, Earlier};
 use serde::{Deserialize, Serialize};
 
+use self::pairs::Pairs;
 use super::tokens::{names, tokens};
 
 /// Number of tokens in one fingerprint: about two statements.
@@ -137,28 +139,20 @@ pub fn groups(
         })
         .collect();
     let different: Vec<&Same<'_>> = same.values().collect();
-    let mut near: Vec<Group> = Vec::new();
+    let mut near = Pairs::new(different.len());
     for (index, one) in different.iter().enumerate() {
-        for other in &different[index + 1..] {
+        for (after, other) in different[index + 1..].iter().enumerate() {
             if !(one.of_this_year || other.of_this_year) {
                 continue;
             }
             let similarity = one.print.similarity(other.print);
             if similarity >= THRESHOLD {
                 let rounded = (similarity * 1000.0).round() / 1000.0;
-                let [one, other] = [one, other].map(|same| same.students[0]);
-                let (one, other) = (one.min(other), one.max(other));
-                join(&mut near, (one.clone(), other.clone(), rounded));
+                near.add(index, index + 1 + after, rounded);
             }
         }
     }
-    for group in &mut near {
-        group.students =
-            group.pairs.iter().flat_map(|(one, other, _)| [one.clone(), other.clone()]).collect();
-        group.students.sort();
-        group.students.dedup();
-        group.pairs.sort_by(|one, other| other.2.total_cmp(&one.2).then_with(|| one.0.cmp(&other.0)));
-    }
+    let mut near = near.groups(|index| different[index].students[0]);
     groups.sort_by(|one, other| one.students.cmp(&other.students));
     near.sort_by(|one, other| one.students.cmp(&other.students));
     groups.append(&mut near);
@@ -171,21 +165,6 @@ struct Same<'a> {
     /// True if one of them is of this year; it comes first.
     of_this_year: bool,
     students: Vec<&'a String>,
-}
-
-/// Adds a pair, and merges all groups that contain one of its students.
-fn join(groups: &mut Vec<Group>, pair: (String, String, f64)) {
-    let has = |group: &Group| {
-        group
-            .pairs
-            .iter()
-            .any(|(one, other, _)| [one, other].iter().any(|name| **name == pair.0 || **name == pair.1))
-    };
-    let (touched, rest): (Vec<Group>, Vec<Group>) = std::mem::take(groups).into_iter().partition(has);
-    *groups = rest;
-    let mut pairs: Vec<_> = touched.into_iter().flat_map(|group| group.pairs).collect();
-    pairs.push(pair);
-    groups.push(Group { identical: false, students: Vec::new(), pairs });
 }
 
 /// Describes the groups in a text for staff.
