@@ -89,6 +89,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
+    arguments.systems.check()?;
     let out = arguments.shard.map_or_else(|| arguments.out.clone(), |shard| shard.folder(&arguments.out));
     arguments.check_earlier_results(&out)?;
     let assignment = arguments.assignment.open(workspace)?;
@@ -108,7 +109,6 @@ pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCo
     let options = arguments.options(&assignment.name, out.clone())?;
     let tables = Tables {
         systems: &arguments.systems,
-        assignment: &assignment.name,
         rubric: &assignment.rubric,
         out: &out,
         page: !arguments.no_report,

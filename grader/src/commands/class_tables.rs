@@ -10,7 +10,7 @@ use classroom::class::{Outcome, feedback, similar, systems};
 use classroom::policy::Standing;
 use present::streams::{note, print_line};
 use present::words::count;
-use verdict::error::Result;
+use verdict::error::{Error, Result};
 use verdict::output;
 use verdict::rubric::Rubric;
 
@@ -23,16 +23,26 @@ pub(super) struct Systems {
     /// The status.csv of an ILIAS exercise; a completed copy is written to --out
     #[arg(long, value_name = "FILE")]
     pub(super) ilias: Option<PathBuf>,
-    /// Also write the students' reports as an archive to upload: feedback-moodle.zip, feedback-ilias.zip
+    /// Also write the students' reports as archives for --moodle and --ilias to upload: feedback-moodle.zip,
+    /// feedback-ilias.zip
     #[arg(long, conflicts_with = "no_report")]
     pub(super) feedback: bool,
+}
+
+impl Systems {
+    /// # Errors
+    /// If feedback is wanted for no course system.
+    pub(super) fn check(&self) -> Result<()> {
+        let has_system = self.moodle.is_some() || self.ilias.is_some();
+        let missing =
+            || Error::Input("--feedback needs --moodle or --ilias, whose names its folders have".into());
+        (has_system || !self.feedback).then_some(()).ok_or_else(missing)
+    }
 }
 
 /// Where and how the files of a class are written.
 pub(super) struct Tables<'a> {
     pub(super) systems: &'a Systems,
-    /// Name of the assignment.
-    pub(super) assignment: &'a str,
     pub(super) rubric: &'a Rubric,
     /// Result folder.
     pub(super) out: &'a Path,
@@ -54,10 +64,10 @@ impl Tables<'_> {
         print(outcome, similar.len(), with_changes)?;
         self.save_gradebook(&outcome.rows.iter().collect::<Vec<_>>())?;
         let automatic_max = rubric.tasks.iter().filter(|task| !task.manual).map(|task| task.points).sum();
-        let assignment = (self.assignment, automatic_max);
+        let assignment = (rubric.assignment.as_str(), automatic_max);
         save_class(&out.join("class.json"), assignment, &outcome.provenance, &outcome.rows, &similar)?;
         output::write_bytes(&out.join("similar.txt"), similar::describe(&similar))?;
-        Archive::new(self.assignment, outcome.fingerprints.clone()).save(out)?;
+        Archive::new(&rubric.assignment, outcome.fingerprints.clone()).save(out)?;
         if outcome.leaderboard {
             let file = out.join("leaderboard.html");
             save_leaderboard(&file, &outcome.rows, out)?;

@@ -31,19 +31,14 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
     let out = &arguments.out;
+    arguments.systems.check()?;
     let assignment = arguments.assignment.open(workspace)?;
     let rubric = &assignment.rubric;
     let folders = if arguments.shards.is_empty() { shard::folders(out)? } else { arguments.shards.clone() };
     output::create_folder(out)?;
     let _lock = FolderLock::of_results(out)?;
-    let outcome = merge(&folders, out, rubric.policy.as_ref())?;
-    let tables = Tables {
-        systems: &arguments.systems,
-        assignment: &assignment.name,
-        rubric,
-        out,
-        page: !arguments.no_report,
-    };
+    let outcome = merge(&folders, out, rubric)?;
+    let tables = Tables { systems: &arguments.systems, rubric, out, page: !arguments.no_report };
     tables.save(&outcome, false)?;
     if let Some(level) = outcome.weakest_sandbox {
         note(format_args!("sandbox: {level} in the weakest of {} shards", folders.len()));

@@ -31,7 +31,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments, workspace: &Workspace) -> Result<ExitCode> {
     let assignment = arguments.assignment.open(workspace)?;
-    let (name, out) = (&assignment.name, &arguments.out);
+    let (name, out) = (&assignment.rubric.assignment, &arguments.out);
     let starter = assignment.folder.starter()?;
     let own = Archive::load(out, name)?;
     let earlier = Earlier::load(&arguments.earlier, name)?;

@@ -5,6 +5,7 @@
 
 mod course;
 mod grading;
+mod handed_back;
 mod manifests;
 mod marks;
 mod names;

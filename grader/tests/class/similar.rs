@@ -38,6 +38,11 @@ fn a_copy_of_an_earlier_year_is_found_and_shown_side_by_side() {
     course.run(&["--roster=roster.csv", "--manifest=received.csv", "--out=2026"]);
     assert!(course.read("2026/similar.txt").contains("none"), "it is alone in its year");
 
+    let here = course.path("rubric").display().to_string();
+    assert!(
+        !course.read("2025/fingerprints.json").contains(&here),
+        "another year's rubric may lie elsewhere"
+    );
     let before = files(&course.path("2025"));
     let output = course.other(&["similar", "--out=2026", "--earlier=2025", "--export=other-programs"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));

@@ -3,24 +3,32 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
+use jiff::tz::TimeZone;
+
 use super::Outcome;
+use super::pages::PageMaker;
 use super::record::ResultDir;
 use super::shard::ShardFile;
 use crate::marks::Marks;
-use crate::policy::Rules;
+use crate::policy::zone;
 use verdict::error::{Error, Result};
 use verdict::output;
+use verdict::rubric::Rubric;
 
 /// Merges shards into `out`: copies the results of all submissions, and returns the rows with their marks and penalties.
+/// Pages that shards have made get the marks, too.
 ///
 /// # Errors
 /// If a shard is missing, incomplete or there twice, or if shards were graded with different inputs: says which. Nothing
 /// is copied then.
-pub fn merge(folders: &[PathBuf], out: &Path, rules: Option<&Rules>) -> Result<Outcome> {
+pub fn merge(folders: &[PathBuf], out: &Path, rubric: &Rubric) -> Result<Outcome> {
     let files: Vec<ShardFile> =
         folders.iter().map(|folder| ShardFile::load(folder)).collect::<Result<_>>()?;
     check(folders, &files)?;
     let marks = Marks::open(out)?;
+    let rules = rubric.policy.as_ref();
+    let zone = rules.map_or(Ok(TimeZone::UTC), |rules| zone(&rules.time_zone)).map_err(Error::Input)?;
+    let pages = PageMaker { marks: &marks, zone, path: &rubric.submission.path };
     for (folder, file) in folders.iter().zip(&files) {
         for row in &file.rows {
             ResultDir::new(folder, &row.key).copy_to(&ResultDir::new(out, &row.key))?;
@@ -51,6 +59,13 @@ pub fn merge(folders: &[PathBuf], out: &Path, rules: Option<&Rules>) -> Result<O
     }
     outcome.rows.sort_by_key(|row| place.get(&row.key).copied());
     outcome.rows.iter_mut().for_each(|row| row.apply(&marks, rules));
+    for row in &outcome.rows {
+        let result_dir = ResultDir::new(out, &row.key);
+        let has_pages = result_dir.pages().iter().any(|page| page.is_file());
+        if let Some(record) = result_dir.record_alone().filter(|_| has_pages) {
+            pages.make(&result_dir, &record, row);
+        }
+    }
     outcome.changes.sort();
     outcome.keep_one_fingerprint_of_each_team();
     Ok(outcome)

@@ -14,9 +14,11 @@ use judge::pictures::pictures;
 use judge::reference::Oracle;
 use present::page::{Readers, remove_pages, write_pages};
 use present::pictures::{load, save, thumbnail};
-use verdict::error::Result;
+use present::streams::note;
+use verdict::error::{Error, Result};
 use verdict::output;
 use verdict::report::{HandIn, Report};
+use verdict::text::harmless;
 
 /// Number of scenes with images on a page: fewer than for a single grade, since each takes megabytes.
 const SCENES: usize = 2;
@@ -43,35 +45,50 @@ pub(super) fn complete(
     }
 }
 
-/// Writes both pages of a graded submission unless they are up to date with report, marks and lateness. `path` is the
-/// path of the student file in a checkout, `zone` the time zone of the course.
-pub(super) fn make(
-    result_dir: &ResultDir,
-    record: &Record,
-    marks: &Marks,
-    row: &Row,
-    zone: &TimeZone,
-    path: &str,
-) -> Result<()> {
-    let hand_in = hand_in(row, zone);
-    let mut hasher = blake3::Hasher::new();
-    hasher.update(record.key.as_bytes()).update(record.report.as_bytes()).update(path.as_bytes());
-    hasher.update(format!("{hand_in:?} {:?}", record.explanations).as_bytes());
-    for mark in marks.of(&row.key, &row.explanation) {
-        hasher.update(format!("{mark:?}").as_bytes());
+/// What all pages of a class have in common.
+pub(super) struct PageMaker<'a> {
+    /// Marks of tutors.
+    pub(super) marks: &'a Marks,
+    /// Time zone of the course.
+    pub(super) zone: TimeZone,
+    /// Path of the student file in a checkout.
+    pub(super) path: &'a str,
+}
+
+impl PageMaker<'_> {
+    /// Writes both pages of a submission, graded or refused, unless they are up to date with report, marks and lateness.
+    /// Errors are only printed, since pages change no row.
+    pub(super) fn make(&self, result_dir: &ResultDir, record: &Record, row: &Row) {
+        self.try_to_make(result_dir, record, row).unwrap_or_else(|error| warn(row, &error));
     }
-    let made_of = hasher.finalize().to_hex().to_string();
-    if std::fs::read_to_string(result_dir.made_of()).is_ok_and(|earlier| earlier == made_of) {
-        return Ok(());
+
+    fn try_to_make(&self, result_dir: &ResultDir, record: &Record, row: &Row) -> Result<()> {
+        let hand_in = hand_in(row, &self.zone);
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(record.key.as_bytes()).update(record.report.as_bytes()).update(self.path.as_bytes());
+        hasher.update(format!("{hand_in:?} {:?} {:?}", record.explanations, record.reason).as_bytes());
+        for mark in self.marks.of(&row.key, &row.explanation) {
+            hasher.update(format!("{mark:?}").as_bytes());
+        }
+        let made_of = hasher.finalize().to_hex().to_string();
+        if std::fs::read_to_string(result_dir.made_of()).is_ok_and(|earlier| earlier == made_of) {
+            return Ok(());
+        }
+        let is_refused = record.report.is_empty();
+        let mut report = Report::load(&if is_refused { result_dir.refusal() } else { result_dir.report() })?;
+        report.submission.explanations.clone_from(&record.explanations);
+        self.marks.apply(&mut report, &row.key);
+        report.hand_in = Some(hand_in);
+        let shown = load(&result_dir.pictures()).unwrap_or_default();
+        write_pages(&report, &shown, &result_dir.report(), Readers::Staff(Some(self.path)))?;
+        // Last, so that pages of which one is missing are made again.
+        output::write_bytes(&result_dir.made_of(), made_of)
     }
-    let mut report = Report::load(&result_dir.report())?;
-    report.submission.explanations.clone_from(&record.explanations);
-    marks.apply(&mut report, &row.key);
-    report.hand_in = Some(hand_in);
-    let shown = load(&result_dir.pictures()).unwrap_or_default();
-    write_pages(&report, &shown, &result_dir.report(), Readers::Staff(Some(path)))?;
-    // Last, so that pages of which one is missing are made again.
-    output::write_bytes(&result_dir.made_of(), made_of)
+}
+
+/// Says that the pages of a submission are not what they should be.
+pub(super) fn warn(row: &Row, error: &Error) {
+    note(format_args!("warning: the page of {}: {error}", harmless(&row.key)));
 }
 
 /// What the pages say about student and time.

@@ -183,6 +183,23 @@ impl ResultDir {
         pictures_beside(&self.report())
     }
 
+    /// Path of the report on a submission that was refused.
+    pub(super) fn refusal(&self) -> PathBuf {
+        self.0.join("refusal.json")
+    }
+
+    /// Keeps the report on a submission that was refused; removes an earlier one if there is none. It is no `report.json`:
+    /// nothing was graded.
+    pub(super) fn keep_refusal(&self, refusal: Option<&Report>) -> Result<()> {
+        match refusal {
+            None => output::remove(&self.refusal()),
+            Some(report) => {
+                output::create_folder(&self.0)?;
+                report.save(&self.refusal())
+            }
+        }
+    }
+
     /// Path of the source that was graded.
     pub(super) fn source(&self) -> PathBuf {
         self.0.join("source.rs")

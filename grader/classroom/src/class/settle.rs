@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use jiff::tz::TimeZone;
 
 use super::changes::{Detail, change, vanished};
 use super::gradebook::Row;
+use super::pages::PageMaker;
 use super::progress::Line;
 use super::record::{Record, ResultDir};
 use super::run::{PREVIEW, RunOptions};
@@ -136,16 +137,13 @@ impl Shared<'_> {
         row
     }
 
-    /// Writes the pages of a submission. Errors are only printed, since pages change no row.
+    /// Writes the pages of a submission, or removes earlier ones if none are wanted.
     fn pages(&self, result_dir: &ResultDir, record: &Record, row: &Row) {
-        let zone = self.policy.map_or(TimeZone::UTC, |policy| policy.zone().clone());
-        let made = match (self.options.pages, record.report.is_empty()) {
-            (true, false) => pages::make(result_dir, record, &self.marks, row, &zone, &self.student_file),
-            _ => pages::clear(result_dir),
-        };
-        if let Err(error) = made {
-            note(format_args!("warning: the page of {}: {error}", harmless(&row.key)));
+        if !self.options.pages {
+            return pages::clear(result_dir).unwrap_or_else(|error| pages::warn(row, &error));
         }
+        let zone = self.policy.map_or(TimeZone::UTC, |policy| policy.zone().clone());
+        PageMaker { marks: &self.marks, zone, path: &self.student_file }.make(result_dir, record, row);
     }
 
     /// Takes in and grades the submission of a member; `None` if there is none.
@@ -187,6 +185,13 @@ impl Shared<'_> {
                 return Ok(Some(Settled { record, fingerprint, lateness, receipt, effort: Effort::Copied }));
             }
         }
+        let refusal = match &intake.outcome {
+            Err(refusal) if self.options.pages => {
+                Some(self.grader.refuse(Path::new(&member.label), &refusal.into())?)
+            }
+            _ => None,
+        };
+        result_dir.keep_refusal(refusal.as_ref())?;
         let mut graded = match &intake.outcome {
             Err(_) => None,
             Ok(submission) => Some(self.grader.grade_and_keep(submission, |check| line.check(check))?),

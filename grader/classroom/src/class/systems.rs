@@ -16,7 +16,7 @@ pub struct Filled {
     pub filled: usize,
     /// Rows that were left unchanged, with the reason.
     pub left: Vec<String>,
-    /// Where the system takes back the feedback of each student.
+    /// Where the system takes back the feedback of each student who handed something in.
     pub feedback: Vec<Feedback>,
 }
 
@@ -65,7 +65,8 @@ pub fn fill_moodle(from: &Path, to: &Path, rows: &[Row]) -> Result<Filled> {
             filled.left.push(format!("line {}: not in the class", line.line));
             continue;
         };
-        if let Some(number) = identifier.and_then(|column| participant(line.cell(column))) {
+        let number = identifier.and_then(|column| participant(line.cell(column)));
+        if let Some(number) = number.filter(|_| row.state != State::Missing) {
             let folder = moodle_folder(&name_in(line, names), number);
             filled.feedback.push(Feedback { key: row.key.clone(), folder });
         }
@@ -109,8 +110,9 @@ pub fn fill_ilias(from: &Path, to: &Path, rows: &[Row]) -> Result<Filled> {
             continue;
         };
         let Some(points) = points(row) else { continue };
-        if let [Some(last), Some(first), Some(login), Some(number)] =
-            names.map(|column| Some(line.cell(column?)))
+        let names = names.map(|column| Some(line.cell(column?)));
+        if let ([Some(last), Some(first), Some(login), Some(number)], true) =
+            (names, row.state != State::Missing)
         {
             let folder = ilias_folder(last, first, login, number);
             filled.feedback.push(Feedback { key: row.key.clone(), folder });
