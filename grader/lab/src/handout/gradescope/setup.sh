@@ -7,13 +7,15 @@ root=${AUTOGRADER_ROOT:-/autograder}
 export RUSTUP_HOME=/opt/rustup CARGO_HOME=/opt/cargo PATH=/opt/cargo/bin:$PATH
 apt-get update
 apt-get install -y --no-install-recommends ca-certificates curl gcc libc6-dev
-curl --proto '=https' --tlsv1.2 -sSf https://sh.rustup.rs |
+# From the server of the toolchains, so that this asks for one address only.
+curl --proto '=https' --tlsv1.2 -sSf https://static.rust-lang.org/rustup/rustup-init.sh |
   sh -s -- -y --no-modify-path --profile minimal --default-toolchain 1.95.0
 
 # Contains the solution.
 chmod -R go= "$root/source"
 cd "$root/source"
-cargo build --release --locked -p grader
+# Not --locked: Cargo removes from Cargo.lock what only packages needed that are not here, and keeps all versions.
+cargo build --release -p grader
 target/release/grader doctor
 # Builds the framework and caches the results of the solution, so that no submission waits for them. Fails if the sandbox
 # is too weak: the code of students could read the solution.
