@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use toml_edit::{DocumentMut, Item, Table};
 
 /// For each package the packages of the project that it may depend on.
-const LAYERS: [(&str, &[&str]); 13] = [
+const LAYERS: [(&str, &[&str]); 14] = [
     ("arty", &[]),
     ("arty-import", &["arty"]),
     ("arty-view", &["arty"]),
@@ -34,6 +34,7 @@ const LAYERS: [(&str, &[&str]); 13] = [
             "solution",
         ],
     ),
+    ("schemas", &["arty", "verdict", "judge", "classroom"]),
     ("solution", &["arty", "arty-view"]),
 ];
 

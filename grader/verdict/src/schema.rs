@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 
 use crate::report::Report;
+use crate::rubric::Rubric;
 
 /// Names of techniques, as the renderer writes them.
 #[derive(JsonSchema)]
@@ -12,6 +13,11 @@ pub(crate) enum TechniqueName {
     Bsdf,
     Nee,
     Mis,
+}
+
+/// The schema of `rubric.yml`, as JSON.
+pub fn rubric() -> serde_json::Value {
+    schemars::schema_for!(Rubric).into()
 }
 
 /// The schema of `report.json`, as JSON.

@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use verdict::error::Result;
 
 /// Deadline and extensions of one course.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Course {
     /// Last moment at which a submission is in time. Without a deadline, nothing is late.
@@ -22,7 +23,7 @@ pub struct Course {
 }
 
 /// A later deadline for one student.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Extension {
     /// The student: login, number or e-mail address.
@@ -40,5 +41,10 @@ impl Course {
     /// The first thing in it that is not as expected, with the line.
     pub fn load(path: &Path) -> Result<Self> {
         Ok(arty::yaml::read::<Self>(path)?.0)
+    }
+
+    /// The schema of the file, as JSON.
+    pub fn schema() -> serde_json::Value {
+        schemars::schema_for!(Self).into()
     }
 }

@@ -23,8 +23,11 @@ pub use facts::{FactRow, FailedFact, LearntFacts};
 pub use observation::{CheckObservations, CheckState, Number, ObservationVector};
 pub use signatures::Signatures;
 
+use std::path::Path;
+
 use arty::integrator::Technique;
 use harness::assignment_folder::AssignmentFolder;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use verdict::check::CheckResult;
@@ -51,7 +54,7 @@ pub struct Catalogue {
 }
 
 /// A known mistake.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cause {
     /// Identifier.
@@ -68,10 +71,27 @@ pub struct Cause {
     pub facts: Vec<String>,
 }
 
-#[derive(Deserialize)]
+/// The contents of `causes.yml`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct CausesFile {
+pub struct CausesFile {
+    /// Known mistakes.
     causes: Vec<Cause>,
+}
+
+impl CausesFile {
+    /// Reads the file.
+    ///
+    /// # Errors
+    /// The first thing in it that is not as expected, with the line.
+    pub fn load(path: &Path) -> Result<Self> {
+        Ok(arty::yaml::read::<Self>(path)?.0)
+    }
+
+    /// The schema of the file, as JSON.
+    pub fn schema() -> serde_json::Value {
+        schemars::schema_for!(Self).into()
+    }
 }
 
 impl Catalogue {
@@ -84,11 +104,7 @@ impl Catalogue {
         let (words, measured) = (assignment.causes_file(), assignment.signatures_file());
         let facts = assignment.facts_file();
         Ok(Self {
-            causes: if words.is_file() {
-                arty::yaml::read::<CausesFile>(&words)?.0.causes
-            } else {
-                Vec::new()
-            },
+            causes: if words.is_file() { CausesFile::load(&words)?.causes } else { Vec::new() },
             signatures: if measured.is_file() { Signatures::load(&measured)? } else { Signatures::default() },
             facts: if facts.is_file() { LearntFacts::load(&facts)? } else { LearntFacts::default() },
             techniques: Techniques {

@@ -29,14 +29,15 @@ impl Collection {
         self.models.iter().find(|model| model.name == name)
     }
 
-    /// All files to write.
-    pub(crate) fn files(&self) -> Vec<OutputFile> {
+    /// All files to write. `schema` is the path from them to the schema of scene files, which editors look for.
+    pub(crate) fn files(&self, schema: &str) -> Vec<OutputFile> {
         let text = |name: String, text: String| OutputFile { name, content: Content::Text(text) };
         let mut files = Vec::new();
         for scene in &self.scenes {
             let environment = self.environments.get(scene.name);
             let environment = environment.map_or(String::new(), |it| format!("environment: {it}\n"));
-            files.push(text(format!("{}.yml", scene.name), scene.yaml() + &environment));
+            let content = format!("# yaml-language-server: $schema={schema}\n{}{environment}", scene.yaml());
+            files.push(text(format!("{}.yml", scene.name), content));
         }
         for model in &self.models {
             files.push(text(format!("{}.obj", model.name), model.obj()));

@@ -54,7 +54,7 @@ fn main() -> ExitCode {
         return ExitCode::from(3);
     }
 
-    let mut files = collection.files();
+    let mut files = collection.files("scene.schema.json");
     files.extend(extremes.files());
     if check_only {
         let differences = output::differences(&scenes_folder(), &files);

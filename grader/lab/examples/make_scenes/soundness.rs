@@ -25,7 +25,7 @@ pub(crate) fn faults(collection: &Collection) -> Vec<String> {
 pub(crate) fn faults_of_names(collection: &Collection) -> Vec<String> {
     let mut faults = Vec::new();
     let mut names = BTreeSet::new();
-    for file in collection.files() {
+    for file in collection.files("scene.schema.json") {
         if !names.insert(file.name.clone()) {
             faults.push(format!("{}: made twice", file.name));
         }

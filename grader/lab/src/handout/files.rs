@@ -9,12 +9,14 @@ use verdict::error::{Error, Result};
 
 /// Files and folders that are included, without tests: some of these need the solution, and some show how to sample a
 /// light.
-const INCLUDED: [&str; 21] = [
+const INCLUDED: [&str; 23] = [
     ".gitattributes",
     ".gitignore",
     ".vscode",
     "LICENSE-APACHE",
     "LICENSE-MIT",
+    "assignments/causes.schema.json",
+    "assignments/rubric.schema.json",
     "rustfmt.toml",
     "skeleton/.cargo",
     "skeleton/src",

@@ -17,8 +17,10 @@ impl Audience {
     /// Packages that are not included, and their folders. Aliases have the names of the packages.
     fn excluded(self) -> &'static [(&'static str, &'static str)] {
         match self {
-            Self::Students => &[("lab", "grader/lab"), ("solution", "solution")],
-            Self::Grading => &[("lab", "grader/lab")],
+            Self::Students => {
+                &[("lab", "grader/lab"), ("schemas", "grader/schemas"), ("solution", "solution")]
+            }
+            Self::Grading => &[("lab", "grader/lab"), ("schemas", "grader/schemas")],
         }
     }
 }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use crate::check::{CheckId, CheckKind, Visibility};
 
 /// One check of a task.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CheckSpec {
     /// Kind of check.
@@ -15,8 +15,10 @@ pub struct CheckSpec {
     #[serde(default = "scripted")]
     pub scene: String,
     /// Technique of the submission.
+    #[schemars(with = "crate::schema::TechniqueName")]
     pub technique: Technique,
     /// Maximum number of bounces.
+    #[schemars(extend("maximum" = u32::MAX))]
     pub max_bounces: u32,
     /// `off` if emission on hit is black, so that only next event estimation finds light.
     #[serde(default)]
@@ -24,20 +26,24 @@ pub struct CheckSpec {
     /// Weight of the check in the points of its task. A required check may weigh nothing: it then decides whether there
     /// are points, not how many.
     #[serde(default = "one")]
+    #[schemars(range(min = 0))]
     pub weight: f64,
     /// True if it must pass for any points in the task. The untouched starting file must fail such a check.
     #[serde(default)]
     pub required: bool,
     /// Relative error of the whole image's mean that a pass excludes.
     #[serde(default = "two_percent")]
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
     pub tolerance: f64,
     /// Name of the step of the task that begins with this check; `None` if the check belongs to the step of the one
     /// before it. Steps change no points.
     #[serde(default)]
     pub step: Option<String>,
     #[serde(default, rename = "evidence", deserialize_with = "renamed_to_required")]
+    #[schemars(skip)]
     _evidence: (),
     #[serde(default, rename = "hits", deserialize_with = "renamed_to_emission_on_hit")]
+    #[schemars(skip)]
     _hits: (),
 }
 

@@ -4,11 +4,13 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use arty::integrator::Technique;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::check::CheckKind;
 use crate::error::{Error, Result};
 use crate::report::Step;
+use crate::schema::TechniqueName;
 
 mod check;
 mod rules;
@@ -19,7 +21,7 @@ pub use rules::{LateRule, Md5Rule, Rules, zone};
 pub use student_file::{Contract, StudentFile};
 
 /// The contents of `rubric.yml`.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Rubric {
     /// Name of the assignment: that of its folder.
@@ -29,11 +31,14 @@ pub struct Rubric {
     /// File that students hand in, and its contract.
     pub submission: StudentFile,
     /// Techniques that the program offers, in the order of pictures. The first is what it had before: the baseline.
+    #[schemars(with = "Vec<TechniqueName>")]
     pub techniques: Vec<Technique>,
     /// Techniques that students write; those of all checks if it is missing.
     #[serde(default)]
+    #[schemars(with = "Option<Vec<TechniqueName>>")]
     student_techniques: Option<Vec<Technique>>,
     /// Technique that the solution renders references and pictures with.
+    #[schemars(with = "TechniqueName")]
     pub reference_technique: Technique,
     /// What to begin with, for those who have not begun.
     #[serde(default)]
@@ -52,10 +57,11 @@ pub struct Rubric {
 }
 
 /// A technique counts as not begun if the source never names it outside of comments, and its weights are constant.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NotBegun {
     /// The technique.
+    #[schemars(with = "TechniqueName")]
     pub technique: Technique,
     /// Its name in a source.
     pub name: String,
@@ -65,7 +71,7 @@ pub struct NotBegun {
 }
 
 /// One task of the sheet.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Task {
     /// Number of the task on the sheet.
@@ -73,6 +79,7 @@ pub struct Task {
     /// Title of the task.
     pub title: String,
     /// Maximum points.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub points: f64,
     /// True if a tutor grades it. Then it has no checks.
     #[serde(default)]

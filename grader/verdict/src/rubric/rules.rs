@@ -4,7 +4,7 @@ use jiff::tz::TimeZone;
 use serde::Deserialize;
 
 /// Rules for late submissions.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Rules {
     /// IANA name of the time zone of times without an offset.
@@ -17,25 +17,29 @@ pub struct Rules {
     pub md5: Option<Md5Rule>,
     /// Points after a penalty are rounded to the nearest multiple of this, ties upwards.
     #[serde(default = "half")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub round_to: f64,
 }
 
 /// Penalty for late submissions.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LateRule {
     /// A submission is accepted if it is less than this many hours late.
+    #[schemars(extend("maximum" = u32::MAX))]
     pub less_than_hours: u32,
     /// Factor on its points, in [0, 1].
+    #[schemars(range(min = 0, max = 1))]
     pub factor: f64,
 }
 
 /// Rule for submitting a checksum before the deadline.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Md5Rule {
     /// Number of hours after the deadline within which the file must arrive, if its checksum arrived before the
     /// deadline.
+    #[schemars(extend("maximum" = u32::MAX))]
     pub within_hours: u32,
 }
 

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// The student's file: the section `submission` of a rubric.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StudentFile {
     /// Path in a handout, below its top folder and with `/`. Its last part is the name of the file that is handed in.
@@ -17,7 +17,7 @@ pub struct StudentFile {
 }
 
 /// What the student's file has to define, and which fixed program is linked around it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Contract {
     /// `PathTracer`, an `Integrator` with `new(Settings)`.

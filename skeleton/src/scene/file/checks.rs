@@ -65,6 +65,7 @@ impl Number {
 
 /// Three finite numbers: a point or a direction.
 #[derive(Clone, Copy, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(super) struct Vector([Number; 3]);
 
 impl Vector {
@@ -81,7 +82,7 @@ impl Vector {
 
 /// A non-negative number.
 #[derive(Clone, Copy)]
-struct NonNegative(f32);
+pub(super) struct NonNegative(f32);
 
 impl<'de> Deserialize<'de> for NonNegative {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -92,6 +93,7 @@ impl<'de> Deserialize<'de> for NonNegative {
 
 /// Three non-negative numbers.
 #[derive(Clone, Copy, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(super) struct Colour([NonNegative; 3]);
 
 impl From<Colour> for Rgb {

@@ -30,12 +30,18 @@ pub(super) struct MeshEntry {
 }
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "Scene"))]
 #[serde(deny_unknown_fields)]
 struct SceneKeys {
+    /// OBJ files; may be empty.
     meshes: Vec<MeshEntry>,
+    /// The camera: `!perspective_camera`.
     camera: Camera,
+    /// Lights without a mesh: `!point_light`, `!spot_light`, `!triangle_light`.
     lights: Option<Vec<Light>>,
+    /// Light from outside of the scene.
     environment: Option<EnvironmentEntry>,
+    /// Size of the image and maximum number of bounces.
     defaults: Option<DefaultsKeys>,
 }
 
@@ -61,9 +67,12 @@ impl TryFrom<SceneKeys> for SceneFile {
 }
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "Mesh"))]
 #[serde(deny_unknown_fields)]
 struct MeshKeys {
+    /// Name of an OBJ file, relative to this file.
     file: String,
+    /// Applied in this order: `!scale`, `!rotate`, `!translate`, `!matrix`.
     transform: Option<Vec<Step>>,
 }
 
@@ -89,6 +98,7 @@ impl<'de> Deserialize<'de> for MeshEntry {
 }
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(untagged))]
 enum Camera {
     #[serde(rename = "perspective_camera")]
     Perspective(PerspectiveCamera),
@@ -97,12 +107,18 @@ enum Camera {
 struct PerspectiveCamera(CameraDescription);
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct CameraKeys {
+    /// Position of the pinhole.
     eye: Vector,
+    /// The point shown in the centre of the image.
     center: Vector,
+    /// The up direction.
     up: Vector,
+    /// Horizontal field of view in degrees.
     #[serde(deserialize_with = "field_of_view")]
+    #[cfg_attr(feature = "schema", schemars(with = "super::schema::FieldOfView"))]
     fov: f32,
 }
 
@@ -130,6 +146,7 @@ impl TryFrom<CameraKeys> for PerspectiveCamera {
 }
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(untagged))]
 enum Light {
     #[serde(rename = "point_light")]
     Point(PointLight),
@@ -152,9 +169,12 @@ impl Light {
 struct PointLight(LightDescription);
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct PointLightKeys {
+    /// The position.
     position: Vector,
+    /// Power in watts.
     color: Colour,
 }
 
@@ -174,12 +194,20 @@ impl TryFrom<PointLightKeys> for PointLight {
 struct SpotLight(LightDescription);
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct SpotLightKeys {
+    /// The position.
     position: Vector,
+    /// The axis of the cone.
     direction: Vector,
+    /// Angle from the axis up to which the intensity is constant, in degrees.
+    #[cfg_attr(feature = "schema", schemars(with = "super::schema::InnerAngle"))]
     inner: Number,
+    /// Angle from the axis beyond which it is zero, in degrees.
+    #[cfg_attr(feature = "schema", schemars(with = "super::schema::OuterAngle"))]
     outer: Number,
+    /// Power in watts.
     color: Colour,
 }
 
@@ -212,11 +240,13 @@ impl TryFrom<SpotLightKeys> for SpotLight {
 struct TriangleLight(LightDescription);
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct TriangleLightKeys {
     v0: Vector,
     v1: Vector,
     v2: Vector,
+    /// Radiance emitted from the front, where the vertices are counter-clockwise.
     color: Colour,
 }
 
@@ -242,12 +272,33 @@ impl TryFrom<TriangleLightKeys> for TriangleLight {
 }
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "Defaults"))]
 #[serde(deny_unknown_fields)]
 struct DefaultsKeys {
+    /// Width in pixels.
     #[serde(default, deserialize_with = "pixels")]
+    #[cfg_attr(feature = "schema", schemars(with = "super::schema::Pixels"))]
     width: Option<u32>,
+    /// Height in pixels.
     #[serde(default, deserialize_with = "pixels")]
+    #[cfg_attr(feature = "schema", schemars(with = "super::schema::Pixels"))]
     height: Option<u32>,
+    /// Maximum number of bounces.
     #[serde(default, deserialize_with = "bounces")]
+    #[cfg_attr(feature = "schema", schemars(with = "super::schema::Bounces"))]
     max_bounces: Option<u32>,
+}
+
+/// The schemas of types that are read as mappings of these keys.
+#[cfg(feature = "schema")]
+mod schemas {
+    use super::super::schema::has_schema_of;
+    use super::*;
+
+    has_schema_of!(SceneFile, SceneKeys);
+    has_schema_of!(PerspectiveCamera, CameraKeys);
+    has_schema_of!(PointLight, PointLightKeys);
+    has_schema_of!(SpotLight, SpotLightKeys);
+    has_schema_of!(TriangleLight, TriangleLightKeys);
+    has_schema_of!(MeshEntry, super::super::schema::Either<super::super::schema::MeshFile, MeshKeys>);
 }

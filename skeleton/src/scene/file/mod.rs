@@ -78,6 +78,8 @@ mod keys;
 mod materials;
 mod mtl;
 mod obj;
+#[cfg(feature = "schema")]
+mod schema;
 mod text;
 mod texture;
 mod transform;
@@ -89,6 +91,8 @@ use std::path::{Path, PathBuf};
 use self::environment::EnvironmentEntry;
 use self::keys::SceneFile;
 use self::materials::Materials;
+#[cfg(feature = "schema")]
+pub use self::schema::{check, schema};
 use self::text::relative_to;
 use self::transform::Placement;
 use self::warnings::Warnings;

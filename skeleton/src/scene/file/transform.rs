@@ -11,6 +11,7 @@ use super::checks::{Number, Vector, mapping};
 
 /// One step of the list `transform`.
 #[derive(Clone, Copy, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(untagged))]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Step {
     /// Scaling by one factor, or by three along the axes.
@@ -100,8 +101,9 @@ pub(super) struct Rotation {
 }
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-struct RotationKeys {
+pub(super) struct RotationKeys {
     axis: Vector,
     degrees: Number,
 }

@@ -44,7 +44,7 @@ impl Extremes {
 
     /// All files to write.
     pub(crate) fn files(&self) -> Vec<OutputFile> {
-        let mut files = self.collection.files();
+        let mut files = self.collection.files("../scene.schema.json");
         let content = Content::Text(answers_file(&self.collection.scenes, &self.answers));
         files.push(OutputFile { name: "answers.yml".to_owned(), content });
         files.iter_mut().for_each(|file| file.name = format!("{FOLDER}/{}", file.name));
