@@ -200,6 +200,28 @@ fn a_report_can_be_looked_at(browser: &mut Browser, page: &Path) {
     browser.click(VIEW, (0.903, 0.903));
     assert!(browser.text(PROBE).starts_with("pixel (144, 115)\n"), "{}", browser.text(PROBE));
 
+    // The paths of the worst pixel, of the technique that is shown; each other sample has other lines.
+    let shown = "[...document.querySelectorAll('svg.paths.shown')].map((it) => it.dataset.technique).join()";
+    let chosen = "document.querySelector('svg.paths.shown .chosen').outerHTML";
+    browser.focus(VIEW);
+    browser.press("p");
+    assert_eq!(browser.text(shown), "mis");
+    let probe = browser.text(PROBE);
+    assert!(probe.contains(", held") && probe.contains("\nsample "), "{probe}");
+    let lines = browser.text("document.querySelector('svg.paths.shown').innerHTML");
+    assert!(lines.contains("bounce") && lines.contains("arrives") && lines.contains("blocked"), "{lines}");
+    let before = (browser.text(chosen), browser.text(REPLAY));
+    browser.press(".");
+    let after = (browser.text(chosen), browser.text(REPLAY));
+    assert!(before.0 != after.0 && before.1 != after.1, "{before:?} {after:?}");
+    browser.press("b");
+    assert_eq!(browser.text(shown), "bsdf");
+    browser.press("m");
+    browser.press("p");
+    assert_eq!(browser.text(shown), "");
+    browser.click(VIEW, (0.903, 0.903));
+    browser.click(VIEW, (0.903, 0.903));
+
     // Zoom, towards the mouse.
     browser.turn_wheel(VIEW, (0.903, 0.903), -100.0);
     browser.wait("document.querySelector('[name=zoom]').value === '0.5'");

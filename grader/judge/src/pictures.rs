@@ -1,5 +1,8 @@
 //! Rendering a submission's pictures for the report page.
 
+mod paths;
+
+use arty::camera::Camera;
 use arty::image::exr::ExrFile;
 use arty::integrator::{Settings, Technique};
 use arty::sampler::batch_seed;
@@ -105,15 +108,22 @@ fn picture(
         let Ok(rendered) = apart(process.render(&job))? else { break };
         all.push((technique, rendered.batches));
     }
-    drop(process);
-    // The submission has finished; the comparisons run in parallel, one per technique.
+    // The submission waits; the comparisons run in parallel, one per technique.
     let compared = all.par_iter().map(|(technique, batches)| {
         let (means, z) = mean_and_z(batches, &reference, width, height);
         let flip = hdr_flip(&means, &reference, width, height).map(|flip| flip.map).unwrap_or_default();
         (*technique, means, z, flip)
     });
+    let camera = Camera::new(&description.camera, width as u32, height as u32);
     for (technique, means, z, flip) in compared.collect::<Vec<_>>() {
         picture.add(technique, (&means, &reference), &z, &flip);
+        let settings = Settings { technique, max_bounces };
+        let worst = worst_pixel(&means, &z);
+        let pixel = [(worst % width) as u32, (worst / width) as u32];
+        let paths = paths::record(&mut process, index, settings, &picture, &camera, pixel)?;
+        if let Some(rendered) = picture.rendered.last_mut() {
+            rendered.paths = paths;
+        }
     }
     Ok((!picture.rendered.is_empty()).then_some(picture))
 }
@@ -142,6 +152,16 @@ fn mean_and_z(
     let differences: Vec<f64> = pairs.map(|(x, r)| x.iter().sum::<f64>() - r.iter().sum::<f64>()).collect();
     let z = z_map(&differences, &variances, width, height);
     (means, z)
+}
+
+/// Index of the pixel that differs most from the reference: the first that is not finite, or else that with the greatest z.
+fn worst_pixel(means: &[[f64; 3]], z: &[f64]) -> usize {
+    let rank = |pixel: usize| {
+        let is_finite = means[pixel].iter().all(|value| value.is_finite());
+        // Beside a pixel that is not finite, z is NaN.
+        if is_finite { z[pixel].abs().max(0.0) } else { f64::INFINITY }
+    };
+    (0..means.len()).rev().max_by(|&a, &b| rank(a).total_cmp(&rank(b))).unwrap_or(0)
 }
 
 /// A reference picture for display.
@@ -197,7 +217,18 @@ fn z_map(differences: &[f64], variances: &[f64], width: usize, height: usize) ->
 
 #[cfg(test)]
 mod tests {
-    use super::z_map;
+    use super::{worst_pixel, z_map};
+
+    #[test]
+    fn the_worst_pixel_is_the_first_that_is_not_finite_or_has_the_greatest_difference() {
+        let (mut means, mut z) = (vec![[1.0; 3]; 4], vec![0.0, -3.0, f64::NAN, 2.0]);
+        assert_eq!(worst_pixel(&means, &z), 1);
+        z[3] = 3.0;
+        assert_eq!(worst_pixel(&means, &z), 1, "the first of two");
+        means[2][1] = f64::NAN;
+        means[3][0] = f64::INFINITY;
+        assert_eq!(worst_pixel(&means, &z), 2);
+    }
 
     #[test]
     fn a_difference_shows_in_the_square_around_it() {

@@ -47,6 +47,50 @@ pub struct Rendered {
     pub flip: Vec<u8>,
     /// Errors of the whole picture.
     pub error: ImageError,
+    /// Paths of the pixel that differs most from the reference; `None` if they were not recorded.
+    pub paths: Option<PixelPaths>,
+}
+
+/// Paths of one pixel, projected onto the picture.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PixelPaths {
+    /// Column and row.
+    pub pixel: [u32; 2],
+    /// The samples that the picture averages there: all of the first seed, then all of the second, and so on.
+    pub samples: Vec<DrawnPath>,
+}
+
+/// The path of one sample.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DrawnPath {
+    /// Radiance that it returned.
+    pub radiance: [f32; 3],
+    /// Its rays after the first one, which is seen as a point.
+    pub lines: Vec<PathLine>,
+}
+
+/// A ray in the picture. Positions are in pixels from the upper left, finite, and may be outside of the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PathLine {
+    /// What the ray is.
+    pub kind: RayKind,
+    /// Its origin.
+    pub from: [f32; 2],
+    /// What it hits, or the point on a light that it is traced to.
+    pub to: [f32; 2],
+}
+
+/// What a ray of a path is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum RayKind {
+    /// From one hit point to the next.
+    Bounce,
+    /// A shadow ray that arrives at the light.
+    Arrives,
+    /// A shadow ray that is blocked.
+    Blocked,
+    /// To a light sample without a shadow ray.
+    Untested,
 }
 
 /// **reference-image**: error of a picture with few samples against the reference. It never affects a verdict, since
@@ -105,6 +149,7 @@ impl Picture {
             z: z.iter().map(|z| (10.0 * z).round().max(-127.0) as i8).collect(),
             flip: flip.iter().map(|flip| (255.0 * flip).round() as u8).collect(),
             error,
+            paths: None,
         });
     }
 }

@@ -9,6 +9,7 @@ pub mod document;
 mod files;
 mod findings;
 mod next;
+mod paths;
 pub mod plots;
 mod prose;
 mod viewer;

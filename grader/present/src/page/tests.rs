@@ -1,6 +1,7 @@
 use super::*;
 use verdict::check::{MeanTest, MeasuredWeights, WeightForm, WeightTest};
 use verdict::edition::for_student;
+use verdict::pictures::{DrawnPath, PathLine, PixelPaths, RayKind};
 use verdict::sample::{
     EVIL, STAFF_ONLY, evil_report, furnace_test, mean_test, picture, report, with_staff_only_checks,
 };
@@ -153,4 +154,24 @@ fn the_page_of_a_class_says_who_handed_in_when_and_what_counts() {
         )
     );
     assert!(!text.contains("<script>alert"), "names are escaped");
+}
+
+#[test]
+fn paths_are_drawn_over_the_picture_of_their_technique() {
+    let mut picture = picture("cornell_box");
+    let line = |kind, x| PathLine { kind, from: [0.5, 0.5], to: [x, 0.25] };
+    let lines = vec![line(RayKind::Arrives, 1.0), line(RayKind::Bounce, 2.0), line(RayKind::Bounce, -3.04)];
+    let samples = vec![DrawnPath { radiance: [1.0, f32::NAN, f32::INFINITY], lines }];
+    assert!(!of("open", &[picture.clone()]).contains("<svg class=\"paths\""));
+    picture.rendered[1].paths = Some(PixelPaths { pixel: [1, 0], samples });
+    let text = of("open", &[picture]);
+    assert_eq!(text.matches("<svg class=\"paths\"").count(), 1);
+    for part in [
+        "data-technique=\"mis\" data-pixel=\"1,0\" viewBox=\"0 0 2 1\"",
+        "data-radiance=\"1 NaN inf\"",
+        "<path class=\"bounce\" d=\"M0.5 0.5L2.0 0.2M0.5 0.5L-3.0 0.2\"></path><path class=\"arrives\"",
+        "name=\"paths\"",
+    ] {
+        assert!(text.contains(part), "{part}");
+    }
 }

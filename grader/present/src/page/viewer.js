@@ -53,6 +53,10 @@ const bringToLife = (figure) => {
   // The pixel that is read, whether it is held, and the corner of what is shown, in pixels of the picture.
   let place = [width >> 1, height >> 1], held = false, corner = [0, 0];
   const zoom = () => 2 ** +control("zoom").value;
+  const count = seeds.length * samples;
+  const sampleNumber = () => clamp(Math.round(+control("sample").value) || 1, 1, count);
+  const withPaths = () => control("paths")?.checked ?? false;
+  const overlays = [...figure.querySelectorAll("svg.paths")];
 
   const colorOf = (technique, mode, i, scale, curve) => {
     const rgb = (list) => {
@@ -98,6 +102,11 @@ const bringToLife = (figure) => {
     context.drawImage(small, corner[0], corner[1], shown[0], shown[1], 0, 0, canvas.width, canvas.height);
     const pixel = size * factor;
     if (share > 0 && share < 1) { context.fillStyle = "#fff"; context.fillRect(share * canvas.width - 1, 0, 2, canvas.height); }
+    for (const overlay of overlays) {
+      overlay.classList.toggle("shown", withPaths() && overlay.dataset.technique === technique);
+      overlay.setAttribute("viewBox", `${corner[0]} ${corner[1]} ${shown[0]} ${shown[1]}`);
+      [...overlay.children].forEach((path, i) => path.classList.toggle("chosen", i === sampleNumber() - 1));
+    }
     const box = [(place[0] - corner[0]) * pixel, (place[1] - corner[1]) * pixel];
     for (const [color, line] of [["#000", 3], [held ? "#ffd54a" : "#fff", 1]]) {
       context.strokeStyle = color; context.lineWidth = line;
@@ -118,9 +127,28 @@ const bringToLife = (figure) => {
       `pixel (${x}, ${y})${held ? ", held: click to release" : ""}`, ...rows, "reference " + three(reference), technique.padEnd(4) + " error".padEnd(6) + off.join(""),
       `z ${z[i].toFixed(1)}${Math.abs(z[i]) >= 12.7 ? " or beyond" : ""}${flip.length ? `   FLIP ${flip[i].toFixed(3)}` : ""}`,
     ].join("\n");
-    const number0 = clamp(Math.round(+control("sample").value) || 1, 1, seeds.length * samples) - 1;
+    const number0 = sampleNumber() - 1;
+    const chosen0 = overlays.find((overlay) => overlay.classList.contains("shown"))?.children[number0];
+    if (chosen0 && overlayAt(technique).join() === place.join()) {
+      figure.querySelector(".probe").textContent +=
+        `\nsample ${number0 + 1}`.padEnd(11) + chosen0.dataset.radiance.split(" ").map((text) => number(+text.replace("inf", "Infinity"))).join("");
+    }
     figure.querySelector(".replay").textContent =
       `${figure.dataset.replay} --technique=${technique} --pixel=${x},${y} --sample=${number0 % samples} --seed=${seeds[Math.floor(number0 / samples)]}`;
+  };
+  // The pixel whose paths there are, for a technique.
+  const overlayAt = (technique) => overlays.find((overlay) => overlay.dataset.technique === technique)?.dataset.pixel.split(",").map(Number) ?? place;
+  // With paths, their pixel is held; the sample that returned most is chosen.
+  const followPaths = () => {
+    const technique = chosen("technique"), overlay = overlays.find((it) => it.dataset.technique === technique);
+    control("paths").closest(".controls").querySelector(".rays").hidden = !withPaths();
+    held = withPaths();
+    if (!held || !overlay) return;
+    place = overlayAt(technique);
+    keepInSight();
+    const sums = [...overlay.children].map((path) => path.dataset.radiance.split(" ").reduce((sum, text) => sum + +text.replace("inf", "Infinity"), 0));
+    const brightness = sums.map((sum) => (Number.isNaN(sum) ? Infinity : sum));
+    control("sample").value = 1 + brightness.indexOf(Math.max(...brightness));
   };
   const draw = () => { drawView(); read(); zoomed = zoom(); };
   const zoomBy = (steps, [x, y]) => {
@@ -177,6 +205,7 @@ const bringToLife = (figure) => {
       corner = corner.map((low, axis) => place[axis] + 0.5 - ((place[axis] + 0.5 - low) * zoomed) / zoom());
       keepInSight();
     }
+    if (name === "paths" || (name.startsWith("technique") && withPaths())) followPaths();
     draw();
   };
   let flippedFrom = "submission";
@@ -188,11 +217,15 @@ const bringToLife = (figure) => {
     },
     "+": () => zoomBy(0.5, place), "=": () => zoomBy(0.5, place), "-": () => zoomBy(-0.5, place),
     e: () => nudge("exposure", 0.5), d: () => nudge("exposure", -0.5),
+    p: () => { if (overlays.length) { control("paths").checked = !withPaths(); followPaths(); } },
+    ",": () => { control("sample").value = ((sampleNumber() + count - 2) % count) + 1; },
+    ".": () => { control("sample").value = (sampleNumber() % count) + 1; },
     "[": () => nudge("wipe", -5), "]": () => nudge("wipe", 5),
     0: () => {
       for (const name of ["exposure", "wipe", "zoom"]) control(name).value = control(name).defaultValue;
       for (const name of ["curve", "against"]) control(name).selectedIndex = 0;
       radio("mode", "submission").checked = true;
+      if (withPaths()) { control("paths").checked = false; followPaths(); }
       held = false;
       changed("exposure");
     },
@@ -206,7 +239,7 @@ const bringToLife = (figure) => {
       const many = event.shiftKey ? 10 : 1;
       place = [clamp(place[0] + many * step[0], 0, width - 1), clamp(place[1] + many * step[1], 0, height - 1)];
       keepInSight();
-    } else if (technique) technique.checked = true;
+    } else if (technique) { technique.checked = true; if (withPaths()) followPaths(); }
     else if (mode) radio("mode", mode).checked = true;
     else if (keys[event.key]) keys[event.key]();
     else return;

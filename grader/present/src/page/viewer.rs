@@ -8,6 +8,7 @@ use verdict::pictures::{ImageError, Picture};
 use verdict::report::Report;
 use verdict::text::quote;
 
+use super::paths;
 use crate::words;
 
 /// What can be shown: the value that the script knows, and its label.
@@ -20,7 +21,7 @@ const MODES: [(&str, &str); 5] = [
 ];
 
 /// Keys, and what they do while a picture has the focus.
-const KEYS: [(&str, &str); 8] = [
+const KEYS: [(&str, &str); 10] = [
     ("←↑↓→", "move to another pixel (with Shift: by ten)"),
     ("1 … 5", "submission, reference, difference, z, FLIP"),
     ("b n m", "technique: BSDF sampling, NEE, MIS"),
@@ -28,6 +29,8 @@ const KEYS: [(&str, &str); 8] = [
     ("+ −", "zoom; also Ctrl + wheel, or a double click"),
     ("e d", "exposure up, down"),
     ("[ ]", "wipe, to the reference or another technique"),
+    ("p", "paths of the pixel that differs most"),
+    (", .", "previous, next sample"),
     ("0", "reset"),
 ];
 
@@ -60,7 +63,10 @@ fn figure(index: usize, picture: &Picture, report: &Report) -> Markup {
             figcaption { b { (scene) } " " span.soft { (words::count(count as usize, "sample")) " per pixel, at most " (words::count(*max_bounces as usize, "bounce")) } }
             div.viewer {
                 div.stage {
-                    canvas.view tabindex="0" aria-label={ "pictures of " (scene) "; arrow keys move the pixel that is read" } {}
+                    div.over {
+                        canvas.view tabindex="0" aria-label={ "pictures of " (scene) "; arrow keys move the pixel that is read" } {}
+                        (paths::overlays(picture))
+                    }
                     fieldset.techniques {
                         legend { "technique" }
                         @for rendered in &picture.rendered {
@@ -89,11 +95,17 @@ fn figure(index: usize, picture: &Picture, report: &Report) -> Markup {
                         p { label { "tone map " select name="curve" {
                             option value="clip" { "sRGB, clipped" } option value="aces" { "ACES" } option value="reinhard" { "Reinhard" }
                         } } }
+                        @if paths::are_there(picture) {
+                            p { label { input type="checkbox" name="paths"; " paths of the pixel that differs most" } }
+                            p.soft.rays hidden {
+                                "Yellow: bounces. Shadow rays: green if they arrive, red and dashed if they are blocked; grey and dotted \
+                                to light samples without one. The sample chosen below is bold." }
+                        }
                         p.soft { "Difference and z: orange is too bright, blue too dark. z: difference in standard errors, over 5 × 5 pixels. \
                             Magenta: NaN or infinity." }
                     }
                     pre.probe aria-live="polite" {}
-                    p.soft.again { label { "Replay sample " input type="number" name="sample" min="1" max=(count) value="1"; } " of this pixel:" }
+                    p.soft.again { label { "Replay sample " input type="number" name="sample" min="1" max=(count) value="1"; } " of this pixel (in a window with " code { "--view" } "):" }
                     pre.replay.command tabindex="0" {}
                 }
             }
