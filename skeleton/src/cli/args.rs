@@ -85,7 +85,7 @@ pub(super) struct Args {
           default_missing_value = tev::DEFAULT_ADDRESS, help_heading = OUTPUT)]
     pub(super) tev: Option<String>,
 
-    /// Refine the picture in a window with keys and mouse: `cargo view`, which takes the same scene and options
+    /// Refine the picture in a window with keys and mouse, as `cargo view` does; `--view --help` lists its options
     #[arg(long, help_heading = OUTPUT)]
     pub(super) view: bool,
 

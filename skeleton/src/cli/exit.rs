@@ -41,9 +41,9 @@ pub(super) enum Failure {
         /// Maximum number of pixels.
         limit: u64,
     },
-    /// The window is in another program, so that this one is built without it.
-    #[error("the window is a program of its own, which is built when it is first used: run `{0}`")]
-    Window(String),
+    /// The window has another algorithm than this program.
+    #[error("--view: the window of `cargo view` shows the student's algorithm; this program has none")]
+    Window,
     /// The threads could not be started.
     #[error("could not start the render threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
@@ -56,18 +56,10 @@ pub(super) enum Failure {
 }
 
 impl Failure {
-    /// The window was asked for with these arguments, the program's name first.
-    pub(super) fn window(arguments: impl Iterator<Item = String>) -> Self {
-        let others = arguments.skip(1).filter(|argument| argument != "--view");
-        Self::Window(
-            ["cargo".to_owned(), "view".to_owned()].into_iter().chain(others).collect::<Vec<_>>().join(" "),
-        )
-    }
-
     /// The exit status of the program.
     pub(super) fn exit(&self) -> Exit {
         match self {
-            Self::File(_) | Self::TooLarge { .. } | Self::Window(_) => Exit::Refused,
+            Self::File(_) | Self::TooLarge { .. } | Self::Window => Exit::Refused,
             Self::Threads(_) | Self::Interrupt(_) | Self::Panic => Exit::Broken,
         }
     }

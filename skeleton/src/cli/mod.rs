@@ -9,13 +9,12 @@
 //! | `output` | image files |
 //! | `errors` | the error against a reference |
 //! | `inspect` | statistics of a scene |
-//! | `import` | starting the program that converts glTF files |
+//! | `programs` | starting the programs of the window and of the conversion of glTF files |
 //! | `exit` | exit status and failures |
 
 mod args;
 mod errors;
 mod exit;
-mod import;
 mod inspect;
 mod interrupt;
 mod live;
@@ -26,6 +25,7 @@ mod original_options;
 mod output;
 mod passes;
 mod plan;
+mod programs;
 mod progress;
 mod scene_name;
 mod session;
@@ -43,6 +43,7 @@ use self::output::Provenance;
 use self::plan::Plan;
 pub use self::plan::{DEFAULT_MAX_BOUNCES, image_size};
 use self::progress::Progress;
+pub use self::scene_name::resolve as scene_file;
 
 /// The algorithm to render with. `main` makes the integrator for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,8 +85,12 @@ pub fn command_line() -> clap::Command {
 /// anything is rendered; 3 for an internal error or a panic of the algorithm; 130 after an interruption (the image is
 /// saved with the samples rendered so far).
 pub fn run(make: impl FnOnce(Algorithm, &Scene) -> Box<dyn Integrator>) -> ExitCode {
-    if let Some(arguments) = import::requested(std::env::args_os()) {
-        return import::run(arguments);
+    if let Some(arguments) = programs::import_requested(std::env::args_os()) {
+        return programs::import(arguments);
+    }
+    let executable = std::env::current_exe().unwrap_or_default();
+    if let Some(arguments) = programs::window_requested(&executable, std::env::args_os()) {
+        return programs::window(arguments);
     }
     let args = match Args::read(std::env::args_os()) {
         Ok(args) => args,
@@ -107,7 +112,7 @@ fn execute(
     args.scene = scene_name::resolve(&args.scene)?;
     let args = &args;
     if args.view {
-        return Err(Failure::window(std::env::args()));
+        return Err(Failure::Window);
     }
     let loaded = file::load(&args.scene)?;
     let scene = Scene::new(&loaded.description);

@@ -8,7 +8,7 @@ use crate::diagnostic::Diagnostic;
 ///
 /// # Errors
 /// If there is no such file; names the scene that was probably meant.
-pub(super) fn resolve(given: &Path) -> Result<PathBuf, Diagnostic> {
+pub fn resolve(given: &Path) -> Result<PathBuf, Diagnostic> {
     let current = std::env::current_dir().unwrap_or_default();
     resolve_in(given, &current)
 }

@@ -13,8 +13,8 @@ use clap::{Parser, value_parser};
 #[derive(Clone, Debug, PartialEq, Parser)]
 #[command(name = "arty --view", version, max_term_width = 100)]
 pub struct Args {
-    /// The scene file (YAML)
-    #[arg(value_name = "SCENE.yml")]
+    /// The scene file (YAML), or the name of a scene in scenes/
+    #[arg(value_name = "SCENE")]
     pub scene: PathBuf,
 
     /// Estimator of the path tracer

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::{Command, ExitCode};
 use std::sync::Arc;
 
-use arty::cli::{DEFAULT_MAX_BOUNCES, image_size};
+use arty::cli::{DEFAULT_MAX_BOUNCES, image_size, scene_file};
 use arty::integrator::Settings;
 use arty::scene::{Scene, file};
 use clap::Parser;
@@ -51,7 +51,7 @@ pub fn run(program: &Program) -> ExitCode {
             return if answer.use_stderr() { ExitCode::from(2) } else { ExitCode::SUCCESS };
         }
     };
-    let (message, status) = match open(program, &args) {
+    let (message, status) = match open(program, args) {
         Ok(()) => return ExitCode::SUCCESS,
         Err(Failure::Refused(message)) => (message, 2),
         Err(Failure::Broken(message)) => (message, 3),
@@ -60,8 +60,9 @@ pub fn run(program: &Program) -> ExitCode {
     ExitCode::from(status)
 }
 
-fn open(program: &Program, args: &Args) -> Result<(), Failure> {
+fn open(program: &Program, mut args: Args) -> Result<(), Failure> {
     let refuse = |error: arty::diagnostic::Diagnostic| Failure::Refused(error.to_string());
+    args.scene = scene_file(&args.scene).map_err(refuse)?;
     let loaded = file::load(&args.scene).map_err(refuse)?;
     let scene = Scene::new(&loaded.description);
     loaded.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
@@ -87,7 +88,7 @@ fn open(program: &Program, args: &Args) -> Result<(), Failure> {
     }
     let max_bounces = args.max_bounces.or(defaults.max_bounces).unwrap_or(DEFAULT_MAX_BOUNCES);
     let settings = Settings { technique: args.technique, max_bounces };
-    let viewer = viewer(args, loaded.description.camera, settings, size, reference.is_some())?;
+    let viewer = viewer(&args, loaded.description.camera, settings, size, reference.is_some())?;
     let setup = Setup {
         description: Arc::new(loaded.description),
         width: size.0,
@@ -97,7 +98,7 @@ fn open(program: &Program, args: &Args) -> Result<(), Failure> {
         threads: args.threads.map_or(0, usize::from),
         reference: reference.map(Arc::new),
     };
-    window::open(Content { program: *program, args: args.clone(), scene: Arc::new(scene), setup, viewer })
+    window::open(Content { program: *program, args, scene: Arc::new(scene), setup, viewer })
 }
 
 /// The state in the beginning, or as it was before a reload.
