@@ -4,21 +4,21 @@
 //! Moves come when the picture before is refined, as with single keys, and 10 ms after each other, as with the mouse. The
 //! time is that from the move to the picture of the new view; painting it takes some milliseconds more.
 
-#[path = "../src/algorithms/mod.rs"]
-mod algorithms;
+#[path = "../src/algorithms/render_pt.rs"]
+#[allow(unreachable_pub)] // its items are used by the program it belongs to, not here
+mod render_pt;
 
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 
-use algorithms::render_debug::DebugTracer;
-use algorithms::render_pt::PathTracer;
 use arty::cli::{Algorithm, DEFAULT_MAX_BOUNCES, image_size};
 use arty::integrator::{Integrator, Settings, Technique};
 use arty::scene::{Scene, file};
 use arty_view::renderer::{News, Renderer, Setup};
 use arty_view::view::{Balance, View};
+use render_pt::PathTracer;
 
 /// Number of moves of each kind.
 const MOVES: usize = 40;
@@ -66,8 +66,6 @@ fn default_scene() -> PathBuf {
 }
 
 fn make(algorithm: Algorithm, _: &Scene) -> Box<dyn Integrator> {
-    match algorithm {
-        Algorithm::Debug(view) => Box::new(DebugTracer::new(view)),
-        Algorithm::PathTracer(settings) => Box::new(PathTracer::new(settings)),
-    }
+    let Algorithm::PathTracer(settings) = algorithm else { unreachable!("only paths are traced here") };
+    Box::new(PathTracer::new(settings))
 }
