@@ -1,7 +1,7 @@
 //! **varied-scene**: the mean in a random variation of a known scene, new for each seed of a grade.
 //!
 //! It asks what mean-bias asks in that scene, where the answer cannot be known beforehand: reflectances, lights, camera
-//! and orientation differ. As a required check it makes sure that points are earned by computing light transport: a
+//! and orientation differ, and the environment is turned. As a required check it makes sure that points are earned by computing light transport: a
 //! submission that knows the public pictures fails here, and any other passes here if it passes mean-bias. Sizes
 //! and radiances stay close to those of the scene, so that absolute thresholds are no more harmful than there.
 
@@ -80,6 +80,9 @@ fn varied(scene: &SceneDescription, random: &mut Sampler) -> SceneDescription {
     if let Some(environment) = &mut varied.environment {
         let tint = dim(0.5);
         environment.texels.iter_mut().for_each(|texel| *texel *= tint);
+        // About the vertical: what is below the horizon stays there.
+        let turn = Quat::from_axis_angle(Vec3::Y, between(0.0, std::f32::consts::TAU));
+        environment.rotation = (turn * environment.rotation).normalize();
     }
     let axis = Vec3::new(between(-1.0, 1.0), between(-1.0, 1.0), between(0.1, 1.0)).normalize();
     Transform { rotation: Quat::from_axis_angle(axis, between(0.0, 3.0)), scale: 1.0, offset: Vec3::ZERO }

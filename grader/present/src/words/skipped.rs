@@ -45,7 +45,7 @@ pub fn why_not(why: &WhyNot) -> String {
             return format!("there are {}, too many to add up their closed forms", count(*lights, "light"));
         }
         WhyNot::SpotLight => "there is no closed form for spot lights",
-        WhyNot::PartlyHidden => "an area light is partly occluded",
+        WhyNot::PartlyHidden => "an area light or the environment is partly occluded",
         WhyNot::UnknownNoise => "the reference does not contain the variance of the other techniques",
         WhyNot::AlikeNoise { at_most, needed } => {
             return format!(

@@ -38,7 +38,7 @@ pub enum WhyNot {
     ManyLights(usize),
     /// The closed form does not cover spot lights.
     SpotLight,
-    /// An area light is partly occluded.
+    /// An area light or the environment is partly occluded.
     PartlyHidden,
     /// The reference does not record the noise of the other techniques.
     UnknownNoise,

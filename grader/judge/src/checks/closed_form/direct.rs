@@ -1,4 +1,5 @@
-//! Direct light from point lights and from polygons that are fully visible or fully invisible.
+//! Direct light from point lights, from polygons that are fully visible or fully invisible, and from an environment that
+//! nothing occludes.
 
 use std::f64::consts::PI;
 
@@ -8,6 +9,7 @@ use glam::DVec3;
 
 use super::pixels::Pixels;
 use super::polygon;
+use super::sky::Sky;
 use crate::checks::SceneWithReference;
 use verdict::check::WhyNot;
 use verdict::rubric::EmissionOnHit;
@@ -33,8 +35,11 @@ pub(super) fn picture(
     if lights.len() > MAX_LIGHTS {
         return Err(WhyNot::ManyLights(lights.len()));
     }
+    let mut sky = scene.scene.environment().map(|environment| Sky::new(environment, &scene.description));
     Pixels::integrate(&scene.scene, rays, |ray| {
-        let Some(hit) = scene.scene.intersect(ray) else { return Ok([0.0; 3]) };
+        let Some(hit) = scene.scene.intersect(ray) else {
+            return Ok(sky.as_ref().map_or([0.0; 3], |sky| sky.seen(ray.direction)));
+        };
         let emission = hit.emission().filter(|_| emission_on_hit == EmissionOnHit::On);
         let emitted = emission.map_or([0.0; 3], |emission| emission.radiance.to_array().map(f64::from));
         // The BSDF of a diffuse surface is constant: f = ρ / π.
@@ -43,6 +48,10 @@ pub(super) fn picture(
         if reflected != [0.0; 3] {
             for light in &lights {
                 let irradiance = light.irradiance(scene, &hit)?;
+                (0..3).for_each(|channel| radiance[channel] += reflected[channel] * irradiance[channel]);
+            }
+            if let Some(sky) = &mut sky {
+                let irradiance = sky.irradiance(&hit)?;
                 (0..3).for_each(|channel| radiance[channel] += reflected[channel] * irradiance[channel]);
             }
         }

@@ -5,6 +5,7 @@ mod direct;
 mod pixels;
 mod planes;
 mod polygon;
+mod sky;
 
 use arty::scene::{SceneDescription, Specular};
 
@@ -93,6 +94,10 @@ fn only_flat_diffuse(description: &SceneDescription) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use arty::math::Rgb;
+    use arty::scene::{EnvironmentDescription, Scene};
+    use glam::Quat;
+
     use super::super::test_scenes;
     use super::*;
 
@@ -128,6 +133,39 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// The scene in an environment of radiance 2 from all directions.
+    fn in_constant_environment(name: &str) -> SceneWithReference {
+        let mut scene = test_scenes::load(name);
+        scene.description.lights.clear();
+        scene.description.environment = Some(EnvironmentDescription {
+            width: 1,
+            height: 1,
+            texels: vec![Rgb::gray(2.0)],
+            rotation: Quat::IDENTITY,
+        });
+        scene.scene = Scene::new(&scene.description);
+        scene
+    }
+
+    #[test]
+    fn a_plane_in_a_constant_environment_shows_its_albedo() {
+        let scene = in_constant_environment("point_plane");
+        let pixels =
+            pixel_means(&scene, 1, EmissionOnHit::On, TEST_RAYS).expect("nothing is above the plane");
+        assert!(
+            pixels.mean.iter().flatten().all(|mean| (mean - 0.5 * 2.0).abs() < 1e-4),
+            "{:?}",
+            pixels.mean[0]
+        );
+    }
+
+    #[test]
+    fn a_room_hides_its_environment() {
+        let scene = in_constant_environment("cornell_box_point");
+        let why = pixel_means(&scene, 1, EmissionOnHit::On, TEST_RAYS).err();
+        assert_eq!(why, Some(WhyNot::PartlyHidden));
     }
 
     #[test]

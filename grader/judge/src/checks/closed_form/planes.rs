@@ -19,7 +19,7 @@ pub(super) struct Planes<'a> {
 
 /// Recognises a scene of two parallel planes; `None` for any other scene.
 pub(super) fn recognise(description: &SceneDescription) -> Option<Planes<'_>> {
-    if !description.lights.is_empty() {
+    if !description.lights.is_empty() || description.environment.is_some() {
         return None;
     }
     let mut planes: Vec<(u32, DVec3, f64)> = Vec::new();
