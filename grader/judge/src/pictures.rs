@@ -118,7 +118,7 @@ fn picture(
     for (technique, means, z, flip) in compared.collect::<Vec<_>>() {
         picture.add(technique, (&means, &reference), &z, &flip);
         let settings = Settings { technique, max_bounces };
-        let worst = worst_pixel(&means, &z);
+        let worst = worst_pixel(&means, &reference, &z);
         let pixel = [(worst % width) as u32, (worst / width) as u32];
         let paths = paths::record(&mut process, index, settings, &picture, &camera, pixel)?;
         if let Some(rendered) = picture.rendered.last_mut() {
@@ -154,9 +154,13 @@ fn mean_and_z(
     (means, z)
 }
 
-/// Index of the pixel that differs most from the reference: the first that is not finite, or else that with the greatest z.
-fn worst_pixel(means: &[[f64; 3]], z: &[f64]) -> usize {
+/// Index of the pixel that differs most from the reference: the first that is not finite, or else that with the greatest z
+/// of those that are not black in both, as beside an object, where there are no paths.
+fn worst_pixel(means: &[[f64; 3]], reference: &[[f64; 3]], z: &[f64]) -> usize {
     let rank = |pixel: usize| {
+        if [means[pixel], reference[pixel]] == [[0.0; 3]; 2] {
+            return -1.0;
+        }
         let is_finite = means[pixel].iter().all(|value| value.is_finite());
         // Beside a pixel that is not finite, z is NaN.
         if is_finite { z[pixel].abs().max(0.0) } else { f64::INFINITY }
@@ -222,12 +226,17 @@ mod tests {
     #[test]
     fn the_worst_pixel_is_the_first_that_is_not_finite_or_has_the_greatest_difference() {
         let (mut means, mut z) = (vec![[1.0; 3]; 4], vec![0.0, -3.0, f64::NAN, 2.0]);
-        assert_eq!(worst_pixel(&means, &z), 1);
+        let mut reference = vec![[0.0; 3]; 4];
+        assert_eq!(worst_pixel(&means, &reference, &z), 1);
         z[3] = 3.0;
-        assert_eq!(worst_pixel(&means, &z), 1, "the first of two");
+        assert_eq!(worst_pixel(&means, &reference, &z), 1, "the first of two");
+        means[1] = [0.0; 3];
+        assert_eq!(worst_pixel(&means, &reference, &z), 3, "nothing is seen in the first");
+        reference[1] = [1.0; 3];
+        assert_eq!(worst_pixel(&means, &reference, &z), 1, "something should have been");
         means[2][1] = f64::NAN;
         means[3][0] = f64::INFINITY;
-        assert_eq!(worst_pixel(&means, &z), 2);
+        assert_eq!(worst_pixel(&means, &reference, &z), 2);
     }
 
     #[test]
