@@ -15,7 +15,6 @@ use crate::diagnosis::Catalogue;
 use crate::plan;
 use crate::reference::Oracle;
 use crate::statistics::sequential::{LOOKS, SCREENING_LEVEL};
-use arty::integrator::Technique;
 use harness::assignment::Assignment;
 use harness::build::{Framework, SubmissionProgram, compile};
 use harness::host_process::HostProcess;
@@ -315,8 +314,7 @@ impl Grader {
         });
         results.checks = run::run(&context, &meaningful, on_check)?;
         // A part of a grade answers a question of its own.
-        let needs_facts = self.rubric.checks().any(|(_, spec)| spec.technique != Technique::Bsdf);
-        if self.options.only.is_empty() && needs_facts {
+        if self.options.only.is_empty() && self.rubric.is_audited() {
             results.audit = Some(audit.all()?);
         }
         Ok(())

@@ -5,10 +5,10 @@ use std::process::ExitCode;
 use crate::facts::{LearntFacts, leave_one_out, measure};
 use crate::mutants::{Kind, variants};
 use crate::output::{print, write_text};
-use harness::assignment::AssignmentOption;
+use harness::assignment::{Assignment, AssignmentOption};
 use harness::workspace::Workspace;
 use judge::diagnosis::Catalogue;
-use verdict::error::Result;
+use verdict::error::{Error, Result};
 
 /// Measure the facts of all variants, and learn which facts fail for which known mistake
 ///
@@ -36,7 +36,7 @@ pub(super) struct LeaveOneOut {
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let assignment = arguments.assignment.open(&workspace)?;
+    let assignment = audited(&arguments.assignment, &workspace)?;
     let mut list = variants(&assignment)?.list;
     let all = arguments.only.is_empty();
     list.retain(|variant| all || arguments.only.contains(&variant.id));
@@ -62,7 +62,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
 
 pub(super) fn run_leave_one_out(arguments: &LeaveOneOut) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let assignment = arguments.assignment.open(&workspace)?;
+    let assignment = audited(&arguments.assignment, &workspace)?;
     let folder = &assignment.folder;
     let learnt = LearntFacts::load(&folder.facts_file())?;
     let variants = variants(&assignment)?.list;
@@ -72,4 +72,17 @@ pub(super) fn run_leave_one_out(arguments: &LeaveOneOut) -> Result<ExitCode> {
     eprintln!("table: {}", file.display());
     print(table.lines().take(12).collect::<Vec<_>>().join("\n").as_str())?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// The assignment, whose submissions have facts.
+fn audited(option: &AssignmentOption, workspace: &Workspace) -> Result<Assignment> {
+    let assignment = option.open(workspace)?;
+    if assignment.rubric.is_audited() {
+        return Ok(assignment);
+    }
+    Err(Error::Input(format!(
+        "{}: none of its checks is about light samples, which facts are about; mistakes are known by their signatures \
+         (`cargo lab signatures`)",
+        assignment.name
+    )))
 }

@@ -195,6 +195,11 @@ impl Rubric {
         self.tasks.iter().flat_map(|task| task.checks.iter().map(move |check| (task, check)))
     }
 
+    /// True if the audit has something to say: its facts are about light samples and what they are combined with.
+    pub fn is_audited(&self) -> bool {
+        self.checks().any(|(_, spec)| spec.technique != Technique::Bsdf)
+    }
+
     /// The views that the reference of each scene needs, with the techniques whose noise it has to record.
     pub fn scenes(&self) -> BTreeMap<&str, BTreeMap<View, Vec<Technique>>> {
         let mut scenes: BTreeMap<&str, BTreeMap<View, Vec<Technique>>> = BTreeMap::new();
