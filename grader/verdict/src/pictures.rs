@@ -72,15 +72,15 @@ pub struct DrawnPath {
 /// A ray in the picture. Positions are in pixels from the upper left, finite, and may be outside of the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PathLine {
-    /// What the ray is.
+    /// Bounce or shadow ray, and for a shadow ray, the outcome.
     pub kind: RayKind,
-    /// Its origin.
+    /// Origin of the ray.
     pub from: [f32; 2],
     /// What it hits, or the point on a light that it is traced to.
     pub to: [f32; 2],
 }
 
-/// What a ray of a path is.
+/// Kinds of rays of a path, with the outcome of shadow rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum RayKind {
     /// From one hit point to the next.

@@ -100,7 +100,7 @@ has_schema_of!(Rotation, RotationKeys);
 has_schema_of!(Matrix, [Number; 16]);
 has_schema_of!(EnvironmentEntry, Either<EnvironmentMap, EnvironmentColour>);
 
-/// One of two types.
+/// A value of either of two types, in a schema.
 pub(super) struct Either<A, B>(PhantomData<(A, B)>);
 
 impl<A: JsonSchema, B: JsonSchema> JsonSchema for Either<A, B> {
