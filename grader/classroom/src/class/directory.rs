@@ -41,7 +41,7 @@ impl Index {
 }
 
 /// A roster with indices of logins, numbers, names and teams.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Directory<'a> {
     pub(super) students: &'a [Student],
     logins: Index,
@@ -64,31 +64,7 @@ pub(super) fn key(text: &str) -> String {
 impl<'a> Directory<'a> {
     /// Indexes a roster.
     pub(super) fn new(students: &'a [Student]) -> Self {
-        let [
-            logins,
-            accounts,
-            github,
-            identifiers,
-            numbers,
-            any_number,
-            names,
-            ascii_names,
-            team_names,
-            teams,
-        ] = Default::default();
-        let mut directory = Self {
-            students,
-            logins,
-            accounts,
-            github,
-            identifiers,
-            numbers,
-            any_number,
-            names,
-            ascii_names,
-            team_names,
-            teams,
-        };
+        let mut directory = Self { students, ..Self::default() };
         students.iter().enumerate().for_each(|(index, student)| directory.add(index, student));
         directory
     }

@@ -8,7 +8,7 @@ use super::gradebook::Row;
 use super::names::{Name, same};
 
 /// The rows of a class, to be found by what a person types.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Lookup<'a> {
     rows: &'a [Row],
     keys: Index,
@@ -21,8 +21,7 @@ pub struct Lookup<'a> {
 impl<'a> Lookup<'a> {
     /// Prepares the rows of a class.
     pub fn new(rows: &'a [Row]) -> Self {
-        let [keys, logins, numbers, names, sent] = Default::default();
-        let mut lookup = Self { rows, keys, logins, numbers, names, sent };
+        let mut lookup = Self { rows, ..Self::default() };
         for (index, row) in rows.iter().enumerate() {
             lookup.keys.add(key(&row.key), index);
             [&row.login, &row.email].iter().for_each(|login| lookup.logins.add(key(login), index));
